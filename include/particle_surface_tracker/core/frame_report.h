@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace particle_surface_tracker {
+
+/// What happened in one frame, for logs, messages and files.
+struct FrameReport {
+  std::uint64_t frame = 0;    ///< Index of the frame in its sequence.
+  std::int64_t stamp_ns = 0;  ///< [ns].
+
+  std::size_t particles = 0;
+  std::size_t particles_born = 0;  ///< Ids that the frame before did not have, teleported particles included.
+  std::size_t particles_gone = 0;  ///< Ids that this frame does not have, teleported particles included.
+
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t components = 0;    ///< Connected components of the mesh.
+  std::int64_t genus = 0;        ///< Sum over the components: components − χ/2.
+  double volume = 0.0;           ///< Enclosed by the mesh [m³].
+  double implicit_volume = 0.0;  ///< Enclosed by φ = 0 [m³].
+  double area = 0.0;             ///< Of the mesh [m²].
+  double max_abs_delta = 0.0;    ///< Largest |δ| [m].
+
+  std::size_t flagged_vertices = 0;         ///< Moved by more than τ and put back (Sec. 5.3).
+  std::size_t flagged_cells = 0;            ///< Cells of Γ flagged for topology matching.
+  std::size_t unreached_vertices = 0;       ///< Of the flagged: those with no φ = 0 within reach.
+  std::size_t original_vertices_alive = 0;  ///< Vertices of the first mesh that still live.
+
+  /// What one stage took.
+  struct StageTime {
+    std::string stage;
+    double seconds = 0.0;      ///< Wall time [s].
+    double cpu_seconds = 0.0;  ///< Processor time, all threads [s].
+  };
+
+  std::vector<StageTime> times;      ///< In the order in which the stages ran.
+  double total_time = 0.0;           ///< Wall time of the frame [s].
+  double cpu_seconds = 0.0;          ///< Processor time of the frame, all threads [s].
+  std::uint64_t peak_rss_bytes = 0;  ///< Largest resident memory of the process so far.
+
+  /// Things a user should know about, in words; empty when all is well.
+  std::vector<std::string> warnings;
+};
+
+}  // namespace particle_surface_tracker

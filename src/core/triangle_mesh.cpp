@@ -1,0 +1,72 @@
+#include "particle_surface_tracker/core/triangle_mesh.h"
+
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "particle_surface_tracker/core/error.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+void check_indices(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const std::uint32_t vertex : triangles[t]) {
+      if (vertex >= vertex_count) {
+        throw MeshError(
+            fmt::format("triangle {} names vertex {}, but the mesh has {} vertices", t, vertex, vertex_count));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TriangleMesh::TriangleMesh() : delta_(attributes_.add(delta_name, 1, {0.0f})) {}
+
+TriangleMesh::TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> triangles) : TriangleMesh() {
+  check_indices(triangles, positions.size());
+  positions_ = std::move(positions);
+  triangles_ = std::move(triangles);
+  ids_.resize(positions_.size());
+  std::iota(ids_.begin(), ids_.end(), 0u);
+  next_id_ = static_cast<std::uint32_t>(ids_.size());
+  attributes_.resize(positions_.size());
+}
+
+void TriangleMesh::set_triangles(std::vector<Triangle> triangles) {
+  check_indices(triangles, positions_.size());
+  triangles_ = std::move(triangles);
+}
+
+std::uint32_t TriangleMesh::append_vertex(const Vec3f& position, const VertexBlend& blend) {
+  attributes_.append_blend(blend);
+  positions_.push_back(position);
+  ids_.push_back(next_id_++);
+  return static_cast<std::uint32_t>(positions_.size() - 1);
+}
+
+void TriangleMesh::remove_unused_vertices() {
+  constexpr std::uint32_t unused = 0xffffffffu;
+  std::vector<std::uint32_t> new_index(positions_.size(), unused);
+  for (const Triangle& triangle : triangles_) {
+    for (const std::uint32_t vertex : triangle) new_index[vertex] = 0;
+  }
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t vertex = 0; vertex < new_index.size(); ++vertex) {
+    if (new_index[vertex] == unused) continue;
+    new_index[vertex] = static_cast<std::uint32_t>(kept.size());
+    positions_[kept.size()] = positions_[vertex];
+    ids_[kept.size()] = ids_[vertex];
+    kept.push_back(vertex);
+  }
+  positions_.resize(kept.size());
+  ids_.resize(kept.size());
+  attributes_.keep(kept);
+  for (Triangle& triangle : triangles_) {
+    for (std::uint32_t& vertex : triangle) vertex = new_index[vertex];
+  }
+}
+
+}  // namespace particle_surface_tracker
