@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "motion_kernel.h"
+#include "particle_surface_tracker/core/particle_grid.h"
+#include "particle_surface_tracker/stages/advection.h"
+
+namespace particle_surface_tracker {
+
+/// A box relative to the origin of a group of vertices [m].
+struct GroupBox {
+  Vec3f lower = Vec3f::Zero();
+  Vec3f upper = Vec3f::Zero();
+};
+
+/// Particles with their displacements, sorted into the cells of a grid.
+class SortedMotion {
+ public:
+  /// \param grid of the positions of `motion`; both must outlive this.
+  SortedMotion(const ParticleMotion& motion, const ParticleGrid& grid);
+
+  const ParticleMotion& particles() const { return particles_; }
+  const ParticleGrid& grid() const { return grid_; }
+
+  /// Of the sorted particle n [m].
+  const Vec3f& displacement(std::size_t n) const { return displacements_[n]; }
+
+ private:
+  const ParticleMotion& particles_;
+  const ParticleGrid& grid_;
+  std::vector<Vec3f> displacements_;
+};
+
+/// The particles around a group of vertices, ready for the sums. One object per thread.
+class Neighborhood {
+ public:
+  /// Takes the particles of cells lower..upper that are nearer than `radius` to the box, in the order of the grid.
+  /// Whatever the box, the reference is the displacement of the first particle in these cells, so that what a vertex
+  /// gets does not depend on the others of its group.
+  void gather(const SortedMotion& motion, const LatticeCoord& lower, const LatticeCoord& upper, const Vec3d& origin,
+              const GroupBox& box, double radius);
+
+  /// Sums over the particles for every lane of a batch (Sec. 4, poly6).
+  void sum(const MotionKernel& kernel, double radius, MotionBatch& batch);
+
+  /// The sums of one lane of a batch.
+  MotionSums sums_of(const MotionBatch& batch, int lane) const;
+
+  const Vec3f& reference() const { return reference_; }
+
+ private:
+  std::vector<NearParticle> particles_;
+  std::size_t count_ = 0;
+  Vec3f reference_ = Vec3f::Zero();
+  std::vector<float> weights_;
+};
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "affine_motion.h"
+
+namespace particle_surface_tracker {
+
+/// A particle near a group of vertices.
+struct NearParticle {
+  std::array<float, 3> position;      ///< Relative to the group's origin [m].
+  std::array<float, 3> displacement;  ///< Minus the group's reference [m].
+  float squared_displacement;         ///< |displacement|² [m²].
+  float unused;                       ///< Fills up half a cache line.
+};
+
+/// Vertices whose motion is found together, one per lane. Every lane is as if it were alone.
+struct MotionBatch {
+  static constexpr int lanes = 16;
+  using Lanes = std::array<float, lanes>;
+
+  int used = 0;                              ///< Lanes from 0 that hold a vertex.
+  alignas(64) std::array<Lanes, 3> vertex{};  ///< Relative to the group's origin [m].
+
+  alignas(64) std::array<Lanes, MotionSums::size> sums;   ///< Out: as in MotionSums.
+  alignas(64) std::array<std::int32_t, lanes> neighbors;  ///< Out: particles with a weight.
+
+  alignas(64) std::array<Lanes, 3> average;            ///< Out: ū [m].
+  alignas(64) std::array<Lanes, 3> correction;         ///< Out: what the fit adds to the average at the vertex [m].
+  alignas(64) Lanes squared_misfit;                    ///< Out: without the settling factor [m²].
+  alignas(64) std::array<std::int32_t, lanes> is_plain;  ///< Out: −1 where the fit needs no more care, else 0.
+};
+
+/// Bounds of the plain case.
+struct PlainFit {
+  float smallest_variance;        ///< The particles must spread by more than this in all directions [m²].
+  float largest_squared_gradient;  ///< Squared Frobenius norm of A up to which no stretch can be beyond its bound.
+};
+
+/// Both for one set of instructions.
+struct MotionKernel {
+  /// Sums over the particles, weighted by poly6 without its constant, which cancels.
+  /// \param weights scratch for MotionBatch::lanes values per particle.
+  void (*sum)(const NearParticle* particles, std::size_t count, float inverse_squared_radius, float* weights,
+              MotionBatch& batch);
+
+  /// The fit of docs/advection.md from the sums, where the particles spread in all directions and no bound is met.
+  void (*fit)(const PlainFit& bounds, MotionBatch& batch);
+};
+
+/// The kernel for the active set of instructions.
+const MotionKernel& active_motion_kernel();
+
+}  // namespace particle_surface_tracker

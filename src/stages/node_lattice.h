@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "particle_surface_tracker/core/particle_grid.h"
+
+namespace particle_surface_tracker::implicit {
+
+/// One bit per node of a block of 8 × 8 × 8: word x, bit 8 y + z, as in a leaf node of OpenVDB.
+using NodeMask = std::array<std::uint64_t, 8>;
+
+/// 8 × 8 × 8 nodes of a lattice and what is known about them.
+struct NodeBlock {
+  LatticeCoord coord = {};  ///< Coordinates of the first node / 8.
+  NodeMask known = {};      ///< The sign is known or presumed.
+  NodeMask negative = {};   ///< ... and is negative (inside).
+  NodeMask evaluated = {};  ///< The value is known.
+  NodeMask requested = {};  ///< The value is to be evaluated next.
+  std::array<float, 512> values;
+
+  /// Stores the value of a node (64 x + 8 y + z), which is not requested any more.
+  void accept_value(int place, float value);
+};
+
+/// True where any bit is set.
+bool any(const NodeMask& mask);
+
+/// A sparse lattice of nodes with signs and values, in blocks. A cell is named after its node with the smallest
+/// coordinates; it is mixed when the signs known at its corners differ.
+class NodeLattice {
+ public:
+  /// \param presume_outside true: nodes nobody has said anything about count as known to be outside; false: as unknown.
+  explicit NodeLattice(bool presume_outside) : presume_outside_(presume_outside) {}
+
+  std::vector<NodeBlock>& blocks() { return blocks_; }
+  const std::vector<NodeBlock>& blocks() const { return blocks_; }
+
+  /// Index of a block, which is made where it is not there yet. Makes references to blocks invalid.
+  std::uint32_t touch(const LatticeCoord& coord);
+
+  /// The block with these coordinates, or null.
+  const NodeBlock* find(const LatticeCoord& coord) const;
+
+  /// The mixed cells of the block with this index.
+  NodeMask mixed_cells(std::uint32_t index) const;
+
+  /// The corners of all mixed cells, per block; blocks that do not exist have no place in it.
+  std::vector<NodeMask> corners_of_mixed_cells() const;
+
+  /// Requests all corners of some cells of the block with this index, except those evaluated already.
+  void request_corners(std::uint32_t index, const NodeMask& cells);
+
+  /// The blocks in which something is requested, in the order in which they were made.
+  std::vector<std::uint32_t> blocks_with_requests() const;
+
+  /// The blocks whose cells have a corner in one of `blocks`: these and their lower neighbours, made where missing;
+  /// sorted.
+  std::vector<std::uint32_t> blocks_with_cells_around(const std::vector<std::uint32_t>& blocks);
+
+ private:
+  struct CoordHash {
+    std::size_t operator()(const LatticeCoord& c) const {
+      std::uint64_t h = static_cast<std::uint32_t>(c[0]);
+      h = h * 0x9E3779B97F4A7C15ull + static_cast<std::uint32_t>(c[1]);
+      h = h * 0x9E3779B97F4A7C15ull + static_cast<std::uint32_t>(c[2]);
+      return static_cast<std::size_t>(h ^ (h >> 29));
+    }
+  };
+
+  /// The comparison of arrays calls the C library.
+  struct CoordEqual {
+    bool operator()(const LatticeCoord& a, const LatticeCoord& b) const {
+      return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    }
+  };
+
+  bool presume_outside_;
+  std::vector<NodeBlock> blocks_;
+  std::unordered_map<LatticeCoord, std::uint32_t, CoordHash, CoordEqual> index_;
+};
+
+/// The nodes of a block at the corners of some of the cells of another: offset (0 or 1 along each axis) leads from the
+/// cells' block to the nodes' block.
+NodeMask corners_in_block(const NodeMask& cells, const LatticeCoord& offset);
+
+}  // namespace particle_surface_tracker::implicit

@@ -1,0 +1,80 @@
+#include "node_masks.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace particle_surface_tracker {
+
+namespace {
+
+constexpr int kWidth = 8;
+
+}  // namespace
+
+bool is_zero(const LeafWords& words) {
+  return std::all_of(words.begin(), words.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+MovedWords move_words(const LeafWords& words, int axis, int direction) {
+  MovedWords moved;
+  for (int x = 0; x < kWidth; ++x) {
+    const std::uint64_t word = words[x];
+    if (axis == 0) {
+      const int to = x + direction;
+      (to < 0 || to >= kWidth ? moved.outside : moved.inside)[to & (kWidth - 1)] = word;
+    } else if (axis == 1) {
+      moved.inside[x] = direction > 0 ? word << 8 : word >> 8;
+      moved.outside[x] = direction > 0 ? word >> 56 : word << 56;
+    } else {
+      moved.inside[x] = direction > 0 ? (word & ~kHighestZ) << 1 : (word & ~kLowestZ) >> 1;
+      moved.outside[x] = direction > 0 ? (word & kHighestZ) >> 7 : (word & kLowestZ) << 7;
+    }
+  }
+  return moved;
+}
+
+LeafWords& NodeMasks::words_at(const openvdb::Coord& origin) {
+  if (last_ != LeafIndex::none && leaves_[last_].origin == origin) return leaves_[last_].words;
+  last_ = index_.find(origin);
+  if (last_ == LeafIndex::none) {
+    last_ = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back({origin});
+    index_.insert(origin, last_);
+  }
+  return leaves_[last_].words;
+}
+
+void NodeMasks::insert(const openvdb::Coord& node) {
+  const openvdb::Coord origin = node & ~(kWidth - 1);
+  const openvdb::Coord at = node - origin;
+  words_at(origin)[at.x()] |= std::uint64_t{1} << (kWidth * at.y() + at.z());
+}
+
+void NodeMasks::dilate(int down, int up) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int step = 0; step < std::max(down, up); ++step) {
+      if (step < down) dilate_by_one(axis, -1);
+      if (step < up) dilate_by_one(axis, +1);
+    }
+  }
+}
+
+void NodeMasks::dilate_by_one(int axis, int direction) {
+  const std::size_t count = leaves_.size();
+  openvdb::Coord offset(0);
+  offset[axis] = direction * kWidth;
+  // What moves into a neighbour must not move on within the same step, so it waits until every leaf has moved.
+  std::vector<std::pair<openvdb::Coord, LeafWords>> arrivals;
+  for (std::size_t n = 0; n < count; ++n) {
+    Leaf& leaf = leaves_[n];
+    const MovedWords moved = move_words(leaf.words, axis, direction);
+    for (int x = 0; x < kWidth; ++x) leaf.words[x] |= moved.inside[x];
+    if (!is_zero(moved.outside)) arrivals.emplace_back(leaf.origin + offset, moved.outside);
+  }
+  for (const auto& [origin, words] : arrivals) {
+    LeafWords& target = words_at(origin);
+    for (int x = 0; x < kWidth; ++x) target[x] |= words[x];
+  }
+}
+
+}  // namespace particle_surface_tracker

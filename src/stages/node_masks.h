@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <openvdb/Types.h>
+
+#include "leaf_index.h"
+#include "leaf_masks.h"
+
+namespace particle_surface_tracker {
+
+/// A sparse set of lattice nodes (or cells, by their lowest corner): one mask per leaf of 8³.
+class NodeMasks {
+ public:
+  struct Leaf {
+    openvdb::Coord origin;
+    LeafWords words{};
+  };
+
+  explicit NodeMasks(std::size_t expected_leaves = 64) : index_(expected_leaves) {}
+
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+
+  /// Number of the leaf with that origin, or LeafIndex::none.
+  std::uint32_t find(const openvdb::Coord& origin) const { return index_.find(origin); }
+
+  void insert(const openvdb::Coord& node);
+
+  /// Adds to every node those up to `down` below and up to `up` above it along each axis.
+  void dilate(int down, int up);
+
+ private:
+  LeafWords& words_at(const openvdb::Coord& origin);
+  void dilate_by_one(int axis, int direction);
+
+  std::vector<Leaf> leaves_;
+  LeafIndex index_;
+  std::uint32_t last_ = LeafIndex::none;
+};
+
+/// Bits that leave a mask when it moves by one along an axis come out at the far side of the next leaf's.
+struct MovedWords {
+  LeafWords inside{};   ///< What stays in the leaf.
+  LeafWords outside{};  ///< What belongs to the next leaf in that direction.
+};
+
+/// A mask moved by one node along an axis.
+/// \param direction +1 or −1.
+MovedWords move_words(const LeafWords& words, int axis, int direction);
+
+/// True if no bit is set.
+bool is_zero(const LeafWords& words);
+
+}  // namespace particle_surface_tracker
