@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "particle_surface_tracker/core/frame_report.h"
+#include "particle_surface_tracker/core/implicit_surface.h"
+#include "particle_surface_tracker/core/parameters.h"
+#include "particle_surface_tracker/core/particle_frame.h"
+#include "particle_surface_tracker/core/triangle_mesh.h"
+#include "particle_surface_tracker/stages/detection.h"
+
+namespace particle_surface_tracker {
+
+/// Carries one explicit mesh through the frames of a particle simulation: the only object with state across frames.
+///
+/// Not for use by several threads at once; the stages inside run in parallel. Whatever throws leaves the tracker as it
+/// was, so that the next good frame goes on from the last good one.
+class Tracker {
+ public:
+  /// \throw ParameterError as check_parameters().
+  explicit Tracker(const Parameters& parameters);
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+
+  /// Begins with the mesh that bounds the liquid of `frame`, and measures δ of its vertices (Sec. 5.2, t = 0). What was
+  /// tracked before is forgotten.
+  /// \throw ParticleError if the frame is empty.
+  /// \throw TrackingError if mesh and particles do not belong together (check_mesh_fits_particles()).
+  FrameReport start(const TriangleMesh& mesh, const ParticleFrame& frame, std::uint64_t frame_index = 0);
+
+  /// Begins with the implicit surface of `frame` itself as the mesh.
+  /// \throw ParticleError if the frame is empty.
+  /// \throw TrackingError if the particles have no surface at this spacing.
+  FrameReport start_from_particles(const ParticleFrame& frame, std::uint64_t frame_index = 0);
+
+  bool started() const;
+
+  /// Carries the mesh to the next frame: advection, projection, detection (Secs. 4 to 5.3).
+  ///
+  /// A frame without particles, or with none in common with the one before, moves nothing and says so in the report;
+  /// the mesh waits for particles to return.
+  /// \throw TrackingError if start() has not been called.
+  FrameReport advance(const ParticleFrame& frame, std::uint64_t frame_index);
+
+  const Parameters& parameters() const;
+
+  /// Changes parameters between frames.
+  /// \throw ParameterError if one is invalid, or one that needs a reset differs while a mesh is being tracked.
+  void set_parameters(const Parameters& parameters);
+
+  /// The mesh of the last frame.
+  const TriangleMesh& mesh() const;
+
+  /// The implicit surface of the last frame, or null before the first.
+  std::shared_ptr<const ImplicitSurface> implicit_surface() const;
+
+  /// What was flagged in the last frame.
+  const Detection& detection() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Checks that a mesh bounds the liquid of these particles.
+/// \throw TrackingError, with the figures, if more than 5 % of the particles lie outside the mesh by more than r, or
+/// the median distance from the vertices to the nearest particle is above 3 r (wrong scale, axes or offset).
+void check_mesh_fits_particles(const TriangleMesh& mesh, const ParticleFrame& frame, double particle_spacing);
+
+}  // namespace particle_surface_tracker

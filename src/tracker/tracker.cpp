@@ -1,0 +1,255 @@
+#include "particle_surface_tracker/tracker/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "band.h"
+#include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/core/mesh_measures.h"
+#include "particle_surface_tracker/core/mesh_validation.h"
+#include "particle_surface_tracker/stages/advection.h"
+#include "particle_surface_tracker/stages/implicit_function.h"
+#include "particle_surface_tracker/stages/surface_triangulation.h"
+#include "stage_timer.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+/// Farthest that the isosurface is searched for when δ is measured: details of a first mesh may hold no particle [r].
+constexpr double kInitialReach = 64.0;
+
+/// What a frame leaves behind; replaced as a whole once nothing can fail any more.
+struct Tracked {
+  TriangleMesh mesh;
+  ParticleFrame particles;  // of the last frame that had any
+  std::uint64_t particles_frame = 0;
+  std::shared_ptr<const ImplicitSurface> surface;
+  Detection detection;
+  double band = 0.0;  // largest distance between mesh and isosurface, flagged vertices left out [m]
+  std::size_t original_vertices = 0;
+};
+
+std::shared_ptr<const ImplicitSurface> make_implicit_surface(const ParticleFrame& frame, const Parameters& parameters,
+                                                             StageTimer& timer) {
+  timer.begin("implicit_function");
+  const ParticleGrid grid(frame.positions, implicit_function_cell_size(parameters));
+  auto surface = std::make_shared<ImplicitSurface>(evaluate_implicit_function(grid, parameters));
+  timer.begin("triangulation");
+  surface->triangulation = triangulate_zero_level(*surface->field, surface->dx);
+  return surface;
+}
+
+/// Largest |δ| and |φ(x)| over the vertices that were found and not flagged [m].
+double largest_distance(const TriangleMesh& mesh, const Projection& projection, const Detection& detection) {
+  double largest = 0.0;
+  auto flagged = detection.flagged_vertices.begin();
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (flagged != detection.flagged_vertices.end() && *flagged == v) {
+      ++flagged;
+      continue;
+    }
+    largest = std::max({largest, std::abs(static_cast<double>(mesh.delta()[v])),
+                        std::abs(static_cast<double>(projection.distances[v]))});
+  }
+  return largest;
+}
+
+void describe(FrameReport& report, const Tracked& tracked, const ParticleFrame& frame, StageTimer& timer) {
+  timer.begin("measures");
+  const MeshMeasures mesh = measure_mesh(tracked.mesh.positions(), tracked.mesh.triangles());
+  report.stamp_ns = frame.stamp_ns;
+  report.particles = frame.size();
+  report.vertices = tracked.mesh.vertex_count();
+  report.triangles = tracked.mesh.triangle_count();
+  report.components = mesh.components;
+  report.genus = mesh.genus;
+  report.volume = mesh.volume;
+  report.area = mesh.area;
+  if (tracked.surface != nullptr && !frame.empty()) {
+    const SurfaceTriangulation& surface = tracked.surface->triangulation;
+    report.implicit_volume = measure_mesh(surface.vertices, surface.triangles).volume;
+  }
+  for (const float delta : tracked.mesh.delta()) {
+    report.max_abs_delta = std::max(report.max_abs_delta, std::abs(static_cast<double>(delta)));
+  }
+  report.flagged_vertices = tracked.detection.flagged_vertices.size();
+  report.flagged_cells = tracked.detection.flagged_cells.size();
+  report.unreached_vertices = tracked.detection.unreached_vertices;
+  const auto& ids = tracked.mesh.ids();
+  report.original_vertices_alive = static_cast<std::size_t>(
+      std::count_if(ids.begin(), ids.end(), [&](std::uint32_t id) { return id < tracked.original_vertices; }));
+}
+
+void require_particles(const ParticleFrame& frame) {
+  if (frame.empty()) {
+    throw ParticleError("the first frame holds no particles; begin with a frame that does");
+  }
+}
+
+}  // namespace
+
+struct Tracker::State {
+  Parameters parameters;
+  std::unique_ptr<Tracked> tracked;
+
+  double r() const { return parameters.particle_spacing; }
+  double smallest_reach() const { return parameters.tau * r(); }
+
+  /// Measures δ of a new mesh and takes it over.
+  void begin(TriangleMesh mesh, const ParticleFrame& frame, std::shared_ptr<const ImplicitSurface> surface,
+             FrameReport& report, StageTimer& timer) {
+    auto next = std::make_unique<Tracked>();
+    next->mesh = std::move(mesh);
+    next->particles = frame;
+    next->particles_frame = report.frame;
+    next->surface = std::move(surface);
+    next->original_vertices = next->mesh.next_id();
+    std::fill(next->mesh.delta().begin(), next->mesh.delta().end(), 0.0f);
+    const Projection measured =
+        project_within_band(next->mesh.positions(), next->mesh.delta(), *next->surface, 4.0 * smallest_reach(),
+                            std::max(kInitialReach * r(), 4.0 * smallest_reach()), parameters, timer);
+    next->mesh.delta() = measured.distances;
+    const auto lost = std::count_if(measured.status.begin(), measured.status.end(),
+                                    [](ProjectionStatus status) { return status != ProjectionStatus::kFound; });
+    if (lost > 0) {
+      report.warnings.push_back(
+          fmt::format("{} vertices of the first mesh have no implicit surface near them; their δ is "
+                      "taken as 0",
+                      lost));
+    }
+    next->band = largest_distance(next->mesh, measured, next->detection);
+    describe(report, *next, frame, timer);
+    timer.finish();
+    tracked = std::move(next);
+  }
+
+  /// Carries the vertices along with the particles of two frames.
+  void advect_vertices(Tracked& next, const ParticleFrame& frame, FrameReport& report, StageTimer& timer) const {
+    timer.begin("advection");
+    Parameters over_gap = parameters;
+    const std::uint64_t elapsed = report.frame > next.particles_frame ? report.frame - next.particles_frame : 1;
+    over_gap.max_displacement *= static_cast<double>(elapsed);
+    const ParticleMotion motion = match_particles(next.particles, frame, over_gap);
+    report.particles_born = motion.born;
+    report.particles_gone = motion.gone;
+    if (motion.positions.empty()) {
+      report.warnings.push_back("no particle of this frame was in the one before; the mesh is not advected");
+      return;
+    }
+    next.mesh.positions() = advect(next.mesh.positions(), motion, ParticleGrid(motion.positions, r()), parameters);
+  }
+
+  /// Projects the advected vertices and flags those that jump.
+  void project_vertices(Tracked& next, StageTimer& timer) const {
+    const double reach = std::max(parameters.band_factor * next.band, smallest_reach());
+    const double max_reach = std::max(parameters.max_reach * r(), reach);
+    const Projection projection = project_within_band(next.mesh.positions(), next.mesh.delta(), *next.surface, reach,
+                                                      max_reach, parameters, timer);
+    next.detection = apply_projection(next.mesh, projection, parameters);
+    next.band = largest_distance(next.mesh, projection, next.detection);
+  }
+};
+
+Tracker::Tracker(const Parameters& parameters) : state_(std::make_unique<State>()) {
+  check_parameters(parameters);
+  state_->parameters = parameters;
+}
+
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+FrameReport Tracker::start(const TriangleMesh& mesh, const ParticleFrame& frame, std::uint64_t frame_index) {
+  require_particles(frame);
+  FrameReport report;
+  report.frame = frame_index;
+  StageTimer timer(report);
+  timer.begin("checks");
+  check_closed_manifold(mesh);
+  check_mesh_fits_particles(mesh, frame, state_->r());
+  auto surface = make_implicit_surface(frame, state_->parameters, timer);
+  state_->begin(mesh, frame, std::move(surface), report, timer);
+  return report;
+}
+
+FrameReport Tracker::start_from_particles(const ParticleFrame& frame, std::uint64_t frame_index) {
+  require_particles(frame);
+  FrameReport report;
+  report.frame = frame_index;
+  StageTimer timer(report);
+  auto surface = make_implicit_surface(frame, state_->parameters, timer);
+  if (surface->triangulation.triangles.empty()) {
+    throw TrackingError(
+        fmt::format("{} particles have no implicit surface at the spacing r = {:.6g} m", frame.size(), state_->r()));
+  }
+  TriangleMesh mesh(surface->triangulation.vertices, surface->triangulation.triangles);
+  state_->begin(std::move(mesh), frame, std::move(surface), report, timer);
+  return report;
+}
+
+bool Tracker::started() const {
+  return state_->tracked != nullptr;
+}
+
+FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_index) {
+  if (!started()) throw TrackingError("there is no mesh yet: start with the first frame and its mesh");
+  FrameReport report;
+  report.frame = frame_index;
+  StageTimer timer(report);
+  auto next = std::make_unique<Tracked>(*state_->tracked);
+  if (frame.empty()) {
+    report.particles_gone = next->particles.size();
+    report.warnings.push_back("the frame holds no particles; the mesh waits for them to return");
+    next->detection = {};
+  } else {
+    state_->advect_vertices(*next, frame, report, timer);
+    next->surface = make_implicit_surface(frame, state_->parameters, timer);
+    state_->project_vertices(*next, timer);
+    next->particles = frame;
+    next->particles_frame = frame_index;
+  }
+  describe(report, *next, frame, timer);
+  timer.finish();
+  state_->tracked = std::move(next);
+  return report;
+}
+
+const Parameters& Tracker::parameters() const {
+  return state_->parameters;
+}
+
+void Tracker::set_parameters(const Parameters& parameters) {
+  check_parameters(parameters);
+  if (started()) {
+    for (const ParameterInfo& info : parameter_table()) {
+      const std::string before = get_parameter(state_->parameters, info.name);
+      const std::string after = get_parameter(parameters, info.name);
+      if (info.needs_reset && before != after) {
+        throw ParameterError(
+            fmt::format("{} cannot change from {} to {} while a mesh is being tracked; start again with the "
+                        "new value",
+                        info.name, before, after));
+      }
+    }
+  }
+  state_->parameters = parameters;
+}
+
+const TriangleMesh& Tracker::mesh() const {
+  static const TriangleMesh none;
+  return started() ? state_->tracked->mesh : none;
+}
+
+std::shared_ptr<const ImplicitSurface> Tracker::implicit_surface() const {
+  return started() ? state_->tracked->surface : nullptr;
+}
+
+const Detection& Tracker::detection() const {
+  static const Detection none;
+  return started() ? state_->tracked->detection : none;
+}
+
+}  // namespace particle_surface_tracker
