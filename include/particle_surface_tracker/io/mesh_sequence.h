@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "particle_surface_tracker/core/triangle_mesh.h"
+
+namespace particle_surface_tracker {
+
+enum class MeshFormat { kPly, kObj, kNone };
+
+/// Writes the meshes of a sequence into one folder, one file per frame: `frame_000042.ply`.
+class MeshSequence {
+ public:
+  /// Makes the folder, and its parents, where they are missing, and tries whether files can be written there. With
+  /// kNone nothing is touched and nothing is ever written.
+  /// \throw OutputError if that fails.
+  MeshSequence(std::string folder, MeshFormat format);
+
+  /// Path of the file of a frame.
+  std::string path(std::uint64_t frame) const;
+
+  /// \throw OutputError as write_ply() and write_obj().
+  void write(const TriangleMesh& mesh, std::uint64_t frame) const;
+
+ private:
+  std::string folder_;
+  MeshFormat format_;
+};
+
+}  // namespace particle_surface_tracker

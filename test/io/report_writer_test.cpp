@@ -1,0 +1,146 @@
+#include "particle_surface_tracker/io/report_writer.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "particle_surface_tracker/core/error.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+FrameReport example() {
+  FrameReport report;
+  report.frame = 12;
+  report.stamp_ns = 1709210000123456789;
+  report.particles = 1000;
+  report.particles_born = 3;
+  report.particles_gone = 4;
+  report.vertices = 500;
+  report.triangles = 996;
+  report.components = 2;
+  report.genus = 1;
+  report.volume = 0.1;
+  report.implicit_volume = 0.11;
+  report.area = 2.5;
+  report.max_abs_delta = 1e-3;
+  report.flagged_vertices = 5;
+  report.flagged_cells = 6;
+  report.unreached_vertices = 7;
+  report.original_vertices_alive = 499;
+  report.times = {{"implicit surface", 0.25}, {"advection", 0.125}};
+  report.total_time = 0.5;
+  report.cpu_seconds = 0.75;
+  report.peak_rss_bytes = 5000000000;
+  report.warnings = {"a \"quoted\"\nwarning"};
+  return report;
+}
+
+TEST(ReportWriter, LineHoldsEverythingInOrder) {
+  const std::string line = report_line(example());
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const Json json = Json::parse(line);
+  std::vector<std::string> names;
+  for (const auto& item : json.items()) names.push_back(item.key());
+  EXPECT_EQ(names, (std::vector<std::string>{"frame",
+                                             "stamp",
+                                             "particles",
+                                             "vertices",
+                                             "triangles",
+                                             "components",
+                                             "genus",
+                                             "volume",
+                                             "implicit_volume",
+                                             "area",
+                                             "max_abs_delta",
+                                             "flagged_vertices",
+                                             "original_vertices_alive",
+                                             "times",
+                                             "cpu_seconds",
+                                             "cpu_times",
+                                             "peak_rss_bytes",
+                                             "particles_born",
+                                             "particles_gone",
+                                             "flagged_cells",
+                                             "unreached_vertices",
+                                             "warnings"}));
+  EXPECT_EQ(json["frame"], 12);
+  EXPECT_EQ(json["particles"], 1000);
+  EXPECT_EQ(json["vertices"], 500);
+  EXPECT_EQ(json["triangles"], 996);
+  EXPECT_EQ(json["components"], 2);
+  EXPECT_EQ(json["genus"], 1);
+  EXPECT_EQ(json["volume"].get<double>(), 0.1);
+  EXPECT_EQ(json["implicit_volume"].get<double>(), 0.11);
+  EXPECT_EQ(json["area"].get<double>(), 2.5);
+  EXPECT_EQ(json["max_abs_delta"].get<double>(), 1e-3);
+  EXPECT_EQ(json["flagged_vertices"], 5);
+  EXPECT_EQ(json["original_vertices_alive"], 499);
+  EXPECT_EQ(json["times"].dump(), R"({"implicit surface":0.25,"advection":0.125,"total":0.5})");
+  EXPECT_EQ(json["cpu_seconds"].get<double>(), 0.75);
+  EXPECT_EQ(json["peak_rss_bytes"], 5000000000);
+  EXPECT_EQ(json["particles_born"], 3);
+  EXPECT_EQ(json["particles_gone"], 4);
+  EXPECT_EQ(json["flagged_cells"], 6);
+  EXPECT_EQ(json["unreached_vertices"], 7);
+  EXPECT_EQ(json["warnings"][0], "a \"quoted\"\nwarning");
+}
+
+TEST(ReportWriter, StampIsExactToTheNanosecond) {
+  FrameReport report = example();
+  EXPECT_EQ(report_line(report).rfind("{\"frame\":12,\"stamp\":1709210000.123456789,\"particles\"", 0), 0u);
+  report.stamp_ns = 5;
+  EXPECT_NE(report_line(report).find("\"stamp\":0.000000005,"), std::string::npos);
+  report.stamp_ns = -1500000000;
+  EXPECT_NE(report_line(report).find("\"stamp\":-1.500000000,"), std::string::npos);
+}
+
+TEST(ReportWriter, NumbersThatAreNotFiniteAreNull) {
+  FrameReport report = example();
+  report.volume = std::numeric_limits<double>::quiet_NaN();
+  report.area = std::numeric_limits<double>::infinity();
+  const Json json = Json::parse(report_line(report));
+  EXPECT_TRUE(json["volume"].is_null());
+  EXPECT_TRUE(json["area"].is_null());
+}
+
+TEST(ReportWriter, TextThatIsNotUnicodeIsStillJson) {
+  FrameReport report = example();
+  report.warnings = {"bad \xff byte"};
+  EXPECT_NO_THROW(Json::parse(report_line(report)));
+  EXPECT_EQ(Json::parse(report_error_line(3, "bad \xff byte"))["frame"], 3);
+}
+
+TEST(ReportWriter, EveryLineIsInTheFileAtOnce) {
+  std::string name = (std::filesystem::temp_directory_path() / "pst_test_XXXXXX").string();
+  const std::filesystem::path folder = mkdtemp(name.data());
+  const auto content = [&folder] {
+    std::ifstream file(folder / "a.jsonl");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  std::ofstream(folder / "a.jsonl") << "old text\n";
+  ReportWriter writer((folder / "a.jsonl").string());
+  writer.write(example());
+  EXPECT_EQ(content(), report_line(example()) + "\n");
+  writer.write_error(13, "broken");
+  EXPECT_EQ(content(), report_line(example()) + "\n{\"frame\":13,\"error\":\"broken\"}\n");
+  EXPECT_THROW(ReportWriter((folder / "missing/a.jsonl").string()), OutputError);
+  EXPECT_THROW(ReportWriter(folder.string()), OutputError);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ReportWriter, AFullDiskIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+  ReportWriter writer("/dev/full");
+  EXPECT_THROW(writer.write(example()), OutputError);
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker
