@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <particle_surface_tracker/TrackedMesh.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "particle_surface_tracker/core/frame_report.h"
+#include "particle_surface_tracker/tracker/tracker.h"
+
+namespace particle_surface_tracker {
+
+/// What a FrameHandler begins with.
+struct FrameHandlerOptions {
+  Parameters parameters;
+  bool estimate_spacing = false;     ///< Take r from the particles of the first frame, not from the parameters.
+  std::optional<TriangleMesh> mesh;  ///< Bounds the liquid of the first frame; without it the implicit surface does.
+  bool refine_mesh = false;          ///< Split edges of the mesh that are longer than r.
+};
+
+/// Turns clouds of particles into tracked meshes: the one piece between messages and tracker, whether the messages come
+/// from a topic or from a bag.
+class FrameHandler {
+ public:
+  /// \throw ParameterError as check_parameters().
+  explicit FrameHandler(FrameHandlerOptions options);
+
+  /// The first cloud starts the tracker, every other one carries the mesh on. A cloud that throws changes nothing.
+  /// \throw InputError, ParticleError as to_particle_frame().
+  /// \throw ParticleError if the first cloud is empty.
+  /// \throw TrackingError as Tracker::start() and Tracker::advance().
+  FrameReport handle(const sensor_msgs::PointCloud2& cloud, std::uint64_t frame_index);
+
+  bool started() const { return tracker_.has_value(); }
+
+  /// The mesh, parameters and implicit surface of the last frame.
+  /// \pre started().
+  const Tracker& tracker() const { return *tracker_; }
+
+  /// The tracked mesh as a message, stamped and framed as the last cloud.
+  /// \pre started().
+  TrackedMesh message() const;
+
+ private:
+  FrameReport start(const ParticleFrame& frame, std::uint64_t frame_index);
+
+  FrameHandlerOptions options_;
+  std::optional<Tracker> tracker_;
+  std_msgs::Header header_;
+  std::vector<Triangle> triangles_;  // Of the last frame, to see when they change.
+  std::uint32_t topology_version_ = 0;
+};
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <ostream>
+#include <string>
+
+namespace particle_surface_tracker {
+
+/// What a run says on its error stream: warnings, each on a line of its own, and a line of progress that they do not
+/// tear.
+class RunMessages {
+ public:
+  /// \param progress whether the stream is a terminal on which a line can be rewritten.
+  RunMessages(std::ostream& err, bool warnings, bool progress);
+  ~RunMessages();
+
+  void warn(const std::string& text);
+  void show_progress(std::size_t done, std::size_t total, std::uint64_t frame);
+  void end_progress();
+
+ private:
+  std::ostream& err_;
+  bool warnings_;
+  bool progress_;
+  bool line_open_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The text without line breaks.
+std::string one_line(std::string text);
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,141 @@
+#include "particle_surface_tracker/ros/frame_handler.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/ros/particle_conversion.h"
+#include "support/shapes.h"
+
+namespace particle_surface_tracker::test {
+namespace {
+
+constexpr double r = 0.2;
+
+// A ball of liquid of radius 1 that moves by r / 8 along x in every frame.
+sensor_msgs::PointCloud2 ball_cloud(int n) {
+  ParticleFrame frame =
+      fill_with_particles(Vec3d(-1, -1, -1), Vec3d(1, 1, 1), r, 0.0, 0, [](const Vec3d& x) { return x.norm() < 0.95; });
+  for (Vec3f& position : frame.positions) position.x() += static_cast<float>(n * r / 8);
+  frame.stamp_ns = 1000000000 + n;
+  return to_point_cloud(frame, "tank");
+}
+
+FrameHandlerOptions ball_options() {
+  FrameHandlerOptions options;
+  options.parameters.particle_spacing = r;
+  options.mesh = make_sphere(Vec3d::Zero(), 1.0, 3);
+  return options;
+}
+
+double mean_x(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const Vec3f& position : mesh.positions()) sum += position.x();
+  return sum / static_cast<double>(mesh.vertex_count());
+}
+
+TEST(FrameHandler, FirstCloudStartsAndOthersCarryTheMeshOn) {
+  FrameHandler handler(ball_options());
+  EXPECT_FALSE(handler.started());
+  const FrameReport first = handler.handle(ball_cloud(0), 10);
+  EXPECT_TRUE(handler.started());
+  EXPECT_EQ(first.frame, 10u);
+  EXPECT_EQ(first.stamp_ns, 1000000000);
+  EXPECT_EQ(handler.tracker().mesh().positions(), ball_options().mesh->positions());
+  const FrameReport second = handler.handle(ball_cloud(4), 11);
+  EXPECT_EQ(second.frame, 11u);
+  EXPECT_NEAR(mean_x(handler.tracker().mesh()), 4 * r / 8, 1e-3 * r);
+}
+
+TEST(FrameHandler, MessageHasTheHeaderOfTheCloudAndAVersionOfTheTriangles) {
+  FrameHandler handler(ball_options());
+  handler.handle(ball_cloud(0), 0);
+  const TrackedMesh first = handler.message();
+  handler.handle(ball_cloud(1), 1);
+  const TrackedMesh second = handler.message();
+  EXPECT_EQ(second.header.frame_id, "tank");
+  EXPECT_EQ(second.header.stamp, ros::Time(1, 1));
+  EXPECT_EQ(second.triangles, first.triangles);
+  EXPECT_EQ(second.topology_version, first.topology_version);
+  EXPECT_NE(second.vertices, first.vertices);
+}
+
+TEST(FrameHandler, BadCloudsChangeNothing) {
+  FrameHandler handler(ball_options());
+  FrameHandler undisturbed(ball_options());
+  sensor_msgs::PointCloud2 truncated = ball_cloud(1);
+  truncated.data.pop_back();
+  sensor_msgs::PointCloud2 same_ids = ball_cloud(1);
+  std::copy_n(&same_ids.data[12], 4, &same_ids.data[12 + same_ids.point_step]);
+
+  EXPECT_THROW(handler.handle(truncated, 0), InputError);
+  EXPECT_FALSE(handler.started());
+  for (const int n : {0, 1, 2}) {
+    handler.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
+    undisturbed.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
+    EXPECT_THROW(handler.handle(truncated, 5), InputError);
+    EXPECT_THROW(handler.handle(same_ids, 5), ParticleError);
+    EXPECT_EQ(handler.tracker().mesh().positions(), undisturbed.tracker().mesh().positions()) << n;
+    EXPECT_EQ(handler.message().header.stamp, undisturbed.message().header.stamp) << n;
+  }
+}
+
+TEST(FrameHandler, EmptyFirstCloudIsAnErrorAndTheNextOneStarts) {
+  FrameHandler handler(ball_options());
+  EXPECT_THROW(handler.handle(sensor_msgs::PointCloud2(), 0), ParticleError);
+  EXPECT_FALSE(handler.started());
+  handler.handle(ball_cloud(0), 1);
+  EXPECT_TRUE(handler.started());
+}
+
+TEST(FrameHandler, WithoutAMeshTheImplicitSurfaceIsTracked) {
+  FrameHandlerOptions options = ball_options();
+  options.mesh.reset();
+  FrameHandler handler(options);
+  const FrameReport report = handler.handle(ball_cloud(0), 0);
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_NEAR(report.volume, report.implicit_volume, 1e-6 * report.volume);
+  EXPECT_EQ(handler.tracker().mesh().vertex_count(),
+            handler.tracker().implicit_surface()->triangulation.vertices.size());
+}
+
+TEST(FrameHandler, SpacingIsEstimatedFromTheFirstCloud) {
+  FrameHandlerOptions options = ball_options();
+  options.parameters.particle_spacing = 0.0;
+  options.estimate_spacing = true;
+  FrameHandler handler(options);
+  handler.handle(ball_cloud(0), 0);
+  EXPECT_NEAR(handler.tracker().parameters().particle_spacing, r, 1e-6);
+}
+
+TEST(FrameHandler, RefinedMeshHasNoEdgeLongerThanTheSpacing) {
+  FrameHandlerOptions options = ball_options();
+  options.mesh = make_sphere(Vec3d::Zero(), 1.0, 2);
+  options.refine_mesh = true;
+  FrameHandler handler(options);
+  handler.handle(ball_cloud(0), 0);
+  const TriangleMesh& mesh = handler.tracker().mesh();
+  EXPECT_GT(mesh.vertex_count(), options.mesh->vertex_count());
+  for (std::size_t v = 0; v < options.mesh->vertex_count(); ++v) {
+    EXPECT_EQ(mesh.positions()[v], options.mesh->positions()[v]) << v;
+  }
+  for (const Triangle& t : mesh.triangles()) {
+    for (int corner = 0; corner < 3; ++corner) {
+      EXPECT_LE((mesh.positions()[t[corner]] - mesh.positions()[t[(corner + 1) % 3]]).norm(), r * 1.00001);
+    }
+  }
+}
+
+TEST(FrameHandler, BadParametersAreRefusedAtOnce) {
+  FrameHandlerOptions options = ball_options();
+  options.parameters.particle_spacing = 0.0;
+  EXPECT_THROW(FrameHandler{options}, ParameterError);
+  options.estimate_spacing = true;
+  EXPECT_NO_THROW(FrameHandler{options});
+  options.parameters.epsilon = 2.0;
+  EXPECT_THROW(FrameHandler{options}, ParameterError);
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker::test
