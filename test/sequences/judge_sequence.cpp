@@ -1,0 +1,88 @@
+// Tracks a mesh through a bag and judges the mesh of every frame independently of the tracker.
+
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/io/mesh_reader.h"
+#include "sequences/frame_judgement.h"
+#include "sequences/sequence_data.h"
+
+namespace pst = particle_surface_tracker;
+
+namespace {
+
+struct Options {
+  std::string bag;
+  std::string topic = "/particles";
+  std::string mesh;
+  pst::Parameters parameters;
+  std::vector<std::string> settings;
+  std::optional<std::size_t> last;
+  std::size_t stride = 1;
+  std::string csv;
+};
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--bag", options.bag, "Bag of particles")->required();
+  app.add_option("--topic", options.topic, "Topic of the particles");
+  app.add_option("--mesh", options.mesh, "Mesh that bounds the liquid of frame 0")->required();
+  app.add_option("--spacing", options.parameters.particle_spacing, "Particle spacing r [m]")->required();
+  app.add_option("--set", options.settings, "A parameter of the tracker, as name=value");
+  app.add_option("--last", options.last, "Index of the last frame");
+  app.add_option("--stride", options.stride, "Count crossing triangles in every N-th frame (0: never)");
+  app.add_option("--csv", options.csv, "File for the figures");
+}
+
+void apply_settings(Options& options) {
+  for (const std::string& setting : options.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) throw pst::ParameterError("--set " + setting + ": expected name=value");
+    pst::set_parameter(options.parameters, setting.substr(0, equals), setting.substr(equals + 1));
+  }
+}
+
+void judge(const Options& options) {
+  const pst::TriangleMesh mesh = pst::read_initial_mesh(options.mesh).mesh;
+  std::optional<std::size_t> count;
+  if (options.last) count = *options.last + 1;
+  const std::vector<pst::ParticleFrame> frames = pst::test::read_particle_bag(options.bag, options.topic, count);
+  std::ofstream csv(options.csv);
+  csv << pst::test::judgement_csv_header() << "\n";
+  std::cout << pst::test::judgement_header() << std::endl;
+
+  pst::Tracker tracker(options.parameters);
+  pst::test::FrameJudgement first;
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const pst::FrameReport report = n == 0 ? tracker.start(mesh, frames[n]) : tracker.advance(frames[n], n);
+    for (const std::string& warning : report.warnings) std::cout << "frame " << n << ": " << warning << "\n";
+    const bool count_intersections = options.stride != 0 && n % options.stride == 0;
+    const auto judgement = pst::test::judge_frame(tracker, frames[n], report, count_intersections);
+    if (n == 0) first = judgement;
+    std::cout << pst::test::judgement_row(judgement, first) << std::endl;
+    csv << pst::test::judgement_csv_row(judgement, first) << std::endl;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Tracks a mesh through a bag and judges every frame independently of the tracker.", "judge_sequence");
+  Options options;
+  add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    apply_settings(options);
+    judge(options);
+  } catch (const std::exception& error) {
+    std::cerr << "judge_sequence: " << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}
