@@ -1,0 +1,140 @@
+// Times every stage on one frame of a filled body. `--mesh=FILE` takes the body from a file, else it is a procedural
+// one. The argument of a benchmark is the number of particles.
+
+#include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "filled_body.h"
+#include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/io/mesh_reader.h"
+#include "particle_surface_tracker/stages/advection.h"
+#include "particle_surface_tracker/stages/distance_field.h"
+#include "particle_surface_tracker/stages/implicit_function.h"
+#include "particle_surface_tracker/stages/projection.h"
+#include "particle_surface_tracker/stages/surface_triangulation.h"
+#include "support/detailed_body.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+std::string mesh_file;
+
+const TriangleMesh& benchmark_mesh() {
+  static const TriangleMesh mesh =
+      mesh_file.empty() ? test::DetailedBody(0.03).mesh() : read_initial_mesh(mesh_file).mesh;
+  return mesh;
+}
+
+const FilledBody& body_of(std::int64_t particle_count) {
+  static std::map<std::int64_t, FilledBody> bodies;
+  const auto found = bodies.find(particle_count);
+  if (found != bodies.end()) return found->second;
+  const FilledBody body = fill_body(benchmark_mesh(), static_cast<std::size_t>(particle_count));
+  return bodies.emplace(particle_count, body).first->second;
+}
+
+ImplicitSurface surface_of(const FilledBody& body) {
+  const ParticleGrid grid(body.particles.positions, implicit_function_cell_size(body.parameters));
+  ImplicitSurface surface = evaluate_implicit_function(grid, body.parameters);
+  surface.triangulation = triangulate_zero_level(*surface.field, surface.dx);
+  return surface;
+}
+
+/// As far as the tracker looks by default: τ and room for the cubic stencil, or 1.25 times the largest δ.
+double reach_of(const FilledBody& body) {
+  return 2.0 * body.parameters.particle_spacing;
+}
+
+void advection(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  const ParticleFrame later = next_frame(body.particles);
+  for (auto _ : state) {
+    const ParticleMotion motion = match_particles(body.particles, later, body.parameters);
+    const ParticleGrid grid(motion.positions, body.parameters.particle_spacing);
+    benchmark::DoNotOptimize(advect(body.mesh.positions(), motion, grid, body.parameters));
+  }
+}
+
+void implicit_function(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  for (auto _ : state) {
+    const ParticleGrid grid(body.particles.positions, implicit_function_cell_size(body.parameters));
+    benchmark::DoNotOptimize(evaluate_implicit_function(grid, body.parameters));
+  }
+  state.counters["particles"] = static_cast<double>(body.particles.size());
+}
+
+void triangulation(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  const ImplicitSurface surface = surface_of(body);
+  for (auto _ : state) benchmark::DoNotOptimize(triangulate_zero_level(*surface.field, surface.dx));
+  state.counters["triangles"] = static_cast<double>(surface.triangulation.triangles.size());
+}
+
+void distance_field(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  const ImplicitSurface surface = surface_of(body);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(DistanceFields(surface).at_stencils(body.mesh.positions(), reach_of(body)));
+  }
+}
+
+void projection(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  const SignedDistanceField field = DistanceFields(surface_of(body)).at_stencils(body.mesh.positions(), reach_of(body));
+  std::vector<ProjectionStatus> status;
+  const std::vector<float> delta = measure_delta(body.mesh.positions(), field, body.parameters, status);
+  for (auto _ : state) benchmark::DoNotOptimize(project(body.mesh.positions(), delta, field, body.parameters));
+  state.counters["vertices"] = static_cast<double>(body.mesh.vertex_count());
+}
+
+void few(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Arg(28000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+}
+
+void few_and_many(benchmark::internal::Benchmark* benchmark) {
+  few(benchmark);
+  benchmark->Arg(260000);
+}
+
+BENCHMARK(advection)->Apply(few);
+BENCHMARK(implicit_function)->Apply(few_and_many);
+BENCHMARK(triangulation)->Apply(few_and_many);
+BENCHMARK(distance_field)->Apply(few);
+BENCHMARK(projection)->Apply(few);
+
+}  // namespace
+
+/// Takes `--mesh=FILE` out of the arguments.
+void take_mesh_option(int& argc, char** argv) {
+  const std::string option = "--mesh=";
+  const auto rest = std::remove_if(argv + 1, argv + argc, [&](const char* argument) {
+    const std::string text = argument;
+    if (text.rfind(option, 0) != 0) return false;
+    mesh_file = text.substr(option.size());
+    return true;
+  });
+  argc = static_cast<int>(rest - argv);
+}
+
+}  // namespace particle_surface_tracker
+
+int main(int argc, char** argv) {
+  particle_surface_tracker::take_mesh_option(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  try {
+    benchmark::RunSpecifiedBenchmarks();
+  } catch (const particle_surface_tracker::Error& error) {
+    std::cerr << "stage_benchmarks: " << error.what() << "\n";
+    return 2;
+  }
+  return 0;
+}
