@@ -84,7 +84,7 @@ TriangleSlicer::SidePoint TriangleSlicer::side_point(std::uint32_t from, std::ui
 /// The cell along another axis that holds the point where a mesh edge crosses a plane.
 std::int32_t TriangleSlicer::square_along(const SidePoint& point, int axis, std::int32_t k, int along,
                                           double position) const {
-  const auto [lower, upper] = std::minmax(mesh_->cells[point.a][along], mesh_->cells[point.b][along]);
+  const auto [lower, upper] = std::minmax({mesh_->cells[point.a][along], mesh_->cells[point.b][along]});
   if (lower == upper) return lower;
   const Vec3f& a = mesh_->position(point.a);
   const Vec3f& b = mesh_->position(point.b);
@@ -125,7 +125,7 @@ void TriangleSlicer::cross_lines(int axis) {
 /// The edge of a lattice line that holds the place where the triangle crosses it.
 std::int32_t TriangleSlicer::edge_along(const Slice& slice, const Coord& line, int axis, int facing,
                                         double position) const {
-  const auto [lower, upper] = std::minmax(slice.up.square[1], slice.down.square[1]);
+  const auto [lower, upper] = std::minmax({slice.up.square[1], slice.down.square[1]});
   if (lower == upper) return lower;
   const auto [a, b, c] = vertices_;
   const Corners corners = {&mesh_->position(a), &mesh_->position(b), &mesh_->position(c)};
