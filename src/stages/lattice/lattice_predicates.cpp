@@ -8,11 +8,9 @@ namespace particle_surface_tracker {
 
 namespace {
 
-// Bounds of the rounding error of 2 × 2 and 3 × 3 determinants of differences, relative to the sum of the absolute
-// values of their terms (Shewchuk 1997).
-constexpr double kEpsilon = 0x1p-53;
-constexpr double kEdgeError = (3.0 + 16.0 * kEpsilon) * kEpsilon;
-constexpr double kTriangleError = (7.0 + 56.0 * kEpsilon) * kEpsilon;
+/// Bound of the rounding error of a 3 × 3 determinant of differences, relative to the sum of the absolute values of its
+/// terms (Shewchuk 1997).
+constexpr double kTriangleError = (7.0 + 56.0 * 0x1p-53) * 0x1p-53;
 
 int sign_of(double value) {
   return (value > 0.0) - (value < 0.0);
@@ -75,13 +73,9 @@ int exact_compare(const CrossedTriangle& first, const CrossedTriangle& second, i
 
 }  // namespace
 
-int side_of_edge(const Vec3f& p, const Vec3f& q, int a, int b, double plane_a, double plane_b) {
-  const double left = (static_cast<double>(q[a]) - p[a]) * (plane_b - p[b]);
-  const double right = (static_cast<double>(q[b]) - p[b]) * (plane_a - p[a]);
-  const double determinant = left - right;
-  const double magnitude = std::abs(left) + std::abs(right);
-  if (std::abs(determinant) > kEdgeError * magnitude) return determinant > 0.0 ? 1 : -1;
-  if (magnitude > 0.0) {
+int doubtful_side_of_edge(const Vec3f& p, const Vec3f& q, int a, int b, double plane_a, double plane_b) {
+  const bool is_zero = (q[a] == p[a] || plane_b == p[b]) && (q[b] == p[b] || plane_a == p[a]);
+  if (!is_zero) {
     const int side = exact_side_of_edge(p, q, a, b, plane_a, plane_b);
     if (side != 0) return side;
   }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -17,7 +18,11 @@ using openvdb::Coord;
 /// Looks for the closest triangle in the cells around a node, shell by shell.
 class NodeDistance {
  public:
-  NodeDistance(const MeshLattice& lattice, double reach) : lattice_(lattice), reach_squared_(reach * reach) {}
+  NodeDistance(const MeshLattice& lattice, double reach)
+      : lattice_(lattice),
+        positions_(lattice.positions()),
+        triangles_(lattice.triangles()),
+        reach_squared_(reach * reach) {}
 
   double find(const Coord& node) {
     const double h = lattice_.h();
@@ -29,7 +34,9 @@ class NodeDistance {
       for_cells_of(shell, [&](const Coord& offset) {
         if (0.999 * squared_gap(offset) * h * h >= closest) return;
         for (const std::uint32_t t : lattice_.triangles_in_cell(node + offset)) {
-          closest = std::min(closest, squared_distance(t, place));
+          const std::array<Vec3d, 3> corners = corners_from(t, place);
+          if (squared_distance_to_box(corners) >= closest) continue;
+          closest = std::min(closest, squared_distance_to_triangle(corners));
         }
       });
     }
@@ -60,14 +67,15 @@ class NodeDistance {
     return sum;
   }
 
-  double squared_distance(std::uint32_t triangle, const Vec3d& place) const {
-    const auto& [a, b, c] = lattice_.triangles()[triangle];
-    const std::vector<Vec3f>& positions = lattice_.positions();
-    return squared_distance_to_triangle({positions[a].cast<double>() - place, positions[b].cast<double>() - place,
-                                         positions[c].cast<double>() - place});
+  std::array<Vec3d, 3> corners_from(std::uint32_t triangle, const Vec3d& place) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {positions_[a].cast<double>() - place, positions_[b].cast<double>() - place,
+            positions_[c].cast<double>() - place};
   }
 
   const MeshLattice& lattice_;
+  const std::vector<Vec3f>& positions_;
+  const std::vector<Triangle>& triangles_;
   double reach_squared_;
 };
 
