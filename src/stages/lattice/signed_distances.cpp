@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -87,7 +88,8 @@ std::vector<float> signed_distances(const MeshLattice& lattice, const std::vecto
     NodeDistance distance(lattice, reach);
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
       const auto found = static_cast<float>(distance.find(nodes[n]));
-      distances[n] = lattice.winding_number(nodes[n]) >= 1 ? -found : found;
+      const bool is_inside = lattice.winding_number(nodes[n]) >= 1;
+      distances[n] = is_inside ? -std::max(found, std::numeric_limits<float>::min()) : found;
     }
   });
   return distances;
