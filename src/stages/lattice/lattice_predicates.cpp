@@ -1,5 +1,6 @@
 #include "lattice_predicates.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "expansion.h"
@@ -63,6 +64,13 @@ Estimate estimate_height(const Corners& corners, const Vec3d& node) {
   return estimate;
 }
 
+/// True of copies of one triangle, which nothing else needs to be computed for.
+bool have_same_corners(const Corners& first, const Corners& second) {
+  return std::all_of(first.begin(), first.end(), [&](const Vec3f* p) {
+    return std::any_of(second.begin(), second.end(), [&](const Vec3f* q) { return *p == *q; });
+  });
+}
+
 /// Where a line along `axis` through a node crosses a triangle's plane: up to a common factor, the height of the node
 /// over the plane divided by the component of the normal.
 int exact_compare(const CrossedTriangle& first, const CrossedTriangle& second, int axis, const Vec3d& node) {
@@ -102,6 +110,7 @@ int side_of_triangle(const Corners& corners, const Vec3d& node) {
 }
 
 int compare_along_line(const CrossedTriangle& first, const CrossedTriangle& second, int axis, const Vec3d& node) {
+  if (have_same_corners(first.corners, second.corners)) return 0;
   const int order = exact_compare(first, second, axis, node);
   if (order != 0) return order;
   for (int moved = 0; moved < 3; ++moved) {
