@@ -48,7 +48,7 @@ class FrontPlacer {
     const Vec3d to = position(b);
     const double parts = static_cast<double>(points.size()) + 1.0;
     const double length = (to - from).norm();
-    const double gap = length > 0.0 ? std::min(kLeastGap * lattice_.h() / length, 0.5 / parts) : 0.5 / parts;
+    const double gap = length > 0.0 ? std::min(kFrontGap * lattice_.h() / length, 0.5 / parts) : 0.5 / parts;
     std::vector<double> places;
     double lowest = gap;
     for (const PatchVertex* point : points) {
@@ -78,7 +78,7 @@ class FrontPlacer {
     place[point.axis] += point.place * h;
     Vec3d along = Vec3d::Unit(point.axis);
     if (doubled_area > 0.0) along -= along.dot(normal) / (doubled_area * doubled_area) * normal;
-    place += h * (std::max(kLeastGap - point.place, 0.0) - std::max(kLeastGap - (1.0 - point.place), 0.0)) * along;
+    place += h * (std::max(kFrontGap - point.place, 0.0) - std::max(kFrontGap - (1.0 - point.place), 0.0)) * along;
 
     std::array<double, 3> weights{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
     if (doubled_area > 0.0) weights = weights_within(corners, normal, doubled_area, place);
@@ -96,7 +96,7 @@ class FrontPlacer {
     for (int k = 0; k < 3; ++k) {
       const Vec3d& p = corners[(k + 1) % 3];
       const Vec3d side = corners[(k + 2) % 3] - p;
-      least[k] = std::min(kLeastGap * lattice_.h() * side.norm() / doubled_area, kGreatestGap);
+      least[k] = std::min(kFrontGap * lattice_.h() * side.norm() / doubled_area, kGreatestGap);
       least_sum += least[k];
       weights[k] = std::max(side.cross(place - p).dot(normal) / (doubled_area * doubled_area) - least[k], 0.0);
       sum += weights[k];

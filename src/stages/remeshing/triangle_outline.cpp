@@ -156,8 +156,9 @@ std::vector<std::uint32_t> OutlineTracer::find_pieces() const {
     if (e.twin == kNone) continue;
     const std::uint32_t other = half_edges_[e.twin].cell;
     if (is_marked_[e.cell] != 0 || is_marked_[other] != 0) continue;
-    const auto [low, high] = std::minmax(root(e.cell), root(other));
-    piece[high] = low;
+    const std::uint32_t a = root(e.cell);
+    const std::uint32_t b = root(other);
+    piece[std::max(a, b)] = std::min(a, b);
   }
   for (std::uint32_t cell = 0; cell < piece.size(); ++cell) piece[cell] = root(cell);
   return piece;
