@@ -16,7 +16,7 @@ namespace particle_surface_tracker {
 namespace {
 
 using Field = std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*,
-                           ProjectionMethod Parameters::*>;
+                           ProjectionMethod Parameters::*, MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*>;
 
 struct Entry {
   ParameterInfo info;
@@ -97,6 +97,19 @@ std::vector<Entry> make_entries() {
            "A projection that moves a vertex farther than this is taken for a change of topology."),
       real(&P::dx_gamma, "dx_gamma", "dx_Gamma", "r", 0.1, 4.0, true,
            "Cell size of the voxelisation Gamma of the mesh, in which changes of topology are flagged."),
+      choice(&P::detection, "detection", {"tau", "tau_and_signs"},
+             "What is taken for a change of topology: vertices that jump, as in the paper, or also places where mesh "
+             "and implicit surface disagree about inside and outside, such as new drops and bubbles."),
+      real(&P::matching_reach, "matching_reach", "", "r", 0.0, 1e3, false,
+           "Topology matching changes Gamma this far from what is flagged, and farther where that is not enough; 0: "
+           "everywhere."),
+      choice(&P::matching_frames, "matching_frames", {"flagged", "every"},
+             "Topology is matched where something is flagged, or around the whole surface in every frame."),
+      choice(&P::matching_solver, "matching_solver", {"sor", "pcg"},
+             "Solver of topology matching: successive over-relaxation as in the paper, or preconditioned conjugate "
+             "gradients."),
+      real(&P::beta, "beta", "beta", "dx_Gamma", 1e-9, 1.0, false,
+           "The SOR solver of topology matching ends when its largest step is below this."),
   };
 }
 

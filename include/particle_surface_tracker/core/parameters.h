@@ -17,6 +17,24 @@ enum class ProjectionMethod {
   kOneStep   ///< Equation 1 of the paper, which the two-step projection improves on; for comparison.
 };
 
+/// How the Poisson equation of topology matching is solved (Sec. 6.1).
+enum class MatchingSolver {
+  kSor,  ///< Successive over-relaxation, as in the paper.
+  kPcg   ///< Conjugate gradients, preconditioned with an incomplete Cholesky factorisation.
+};
+
+/// What is taken for a change of topology (Sec. 5.3).
+enum class DetectionMethod {
+  kTau,         ///< A projection that moves a vertex by more than τ, as in the paper.
+  kTauAndSigns  ///< Also nodes where mesh and isosurface disagree about inside and outside.
+};
+
+/// When topology matching looks at the surface (Sec. 9.3).
+enum class MatchingFrames {
+  kFlagged,  ///< Where and when something is flagged.
+  kEvery     ///< Everywhere in every frame.
+};
+
 /// Everything a user can set. Lengths are multiples of the particle spacing r unless a field says otherwise; the symbol
 /// of the paper stands first. Names, units, ranges and texts for users are in parameter_table().
 struct Parameters {
@@ -50,7 +68,12 @@ struct Parameters {
   double tau = 0.5;                     // τ: a projection that moves a vertex farther is a topological change [r].
 
   // Voxelisation Γ of the mesh and topology matching (Secs. 5.3, 6).
-  double dx_gamma = 0.5;  // Δx_Γ: cell size of Γ [r].
+  double dx_gamma = 0.5;                              // Δx_Γ: cell size of Γ [r].
+  DetectionMethod detection = DetectionMethod::kTauAndSigns;
+  double matching_reach = 4.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
+  MatchingFrames matching_frames = MatchingFrames::kFlagged;
+  MatchingSolver matching_solver = MatchingSolver::kPcg;
+  double beta = 0.01;  // β: the SOR solver ends when no step is longer [Δx_Γ].
 };
 
 /// What a user needs to know about one parameter; the one source for command line, YAML, dynamic_reconfigure and docs.
