@@ -97,6 +97,7 @@ std::vector<Entry> make_entries() {
            "A projection that moves a vertex farther than this is taken for a change of topology."),
       real(&P::dx_gamma, "dx_gamma", "dx_Gamma", "r", 0.1, 4.0, true,
            "Cell size of the voxelisation Gamma of the mesh, in which changes of topology are flagged."),
+<<<<<<< HEAD
       choice(&P::detection, "detection", {"tau", "tau_and_signs"},
              "What is taken for a change of topology: vertices that jump, as in the paper, or also places where mesh "
              "and implicit surface disagree about inside and outside, such as new drops and bubbles."),
@@ -110,6 +111,25 @@ std::vector<Entry> make_entries() {
              "gradients."),
       real(&P::beta, "beta", "beta", "dx_Gamma", 1e-9, 1.0, false,
            "The SOR solver of topology matching ends when its largest step is below this."),
+=======
+      real(&P::split_length, "split_length", "", "dx_Gamma", 0.5, 1e6, false,
+           "A longer edge is split, if it has also grown by split_growth."),
+      real(&P::split_growth, "split_growth", "", "", 1.0, 1e6, false,
+           "An edge is split only if it is longer than this times the edges that its vertices had at birth."),
+      real(&P::collapse_length, "collapse_length", "", "dx_Gamma", 0.0, 0.25, false,
+           "A shorter edge is collapsed, if it has also shrunk by collapse_shrinkage."),
+      real(&P::collapse_shrinkage, "collapse_shrinkage", "", "", 0.0, 0.5, false,
+           "An edge is collapsed only if it is shorter than this times the edges that its vertices had at birth."),
+      real(&P::fold_angle, "fold_angle", "", "deg", 90.0, 180.0, false,
+           "An edge is collapsed if the normals of its triangles differ by more than this, and by 20 degrees more than "
+           "at birth."),
+      real(&P::sliver_angle, "sliver_angle", "", "deg", 0.0, 30.0, false,
+           "A triangle with a smaller angle is removed, if that angle has also shrunk to half of what it was at "
+           "birth."),
+      real(
+          &P::delta_half_life, "delta_half_life", "", "s", 0.0, 1e9, false,
+          "Time in which the distance delta between mesh and isosurface halves, so that old detail fades; 0 keeps it."),
+>>>>>>> upkeep
   };
 }
 
