@@ -97,7 +97,6 @@ std::vector<Entry> make_entries() {
            "A projection that moves a vertex farther than this is taken for a change of topology."),
       real(&P::dx_gamma, "dx_gamma", "dx_Gamma", "r", 0.1, 4.0, true,
            "Cell size of the voxelisation Gamma of the mesh, in which changes of topology are flagged."),
-<<<<<<< HEAD
       choice(&P::detection, "detection", {"tau", "tau_and_signs"},
              "What is taken for a change of topology: vertices that jump, as in the paper, or also places where mesh "
              "and implicit surface disagree about inside and outside, such as new drops and bubbles."),
@@ -111,7 +110,6 @@ std::vector<Entry> make_entries() {
              "gradients."),
       real(&P::beta, "beta", "beta", "dx_Gamma", 1e-9, 1.0, false,
            "The SOR solver of topology matching ends when its largest step is below this."),
-=======
       real(&P::split_length, "split_length", "", "dx_Gamma", 0.5, 1e6, false,
            "A longer edge is split, if it has also grown by split_growth."),
       real(&P::split_growth, "split_growth", "", "", 1.0, 1e6, false,
@@ -129,7 +127,6 @@ std::vector<Entry> make_entries() {
       real(
           &P::delta_half_life, "delta_half_life", "", "s", 0.0, 1e9, false,
           "Time in which the distance delta between mesh and isosurface halves, so that old detail fades; 0 keeps it."),
->>>>>>> upkeep
   };
 }
 

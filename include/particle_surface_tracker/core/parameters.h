@@ -68,15 +68,12 @@ struct Parameters {
   double tau = 0.5;                     // τ: a projection that moves a vertex farther is a topological change [r].
 
   // Voxelisation Γ of the mesh and topology matching (Secs. 5.3, 6).
-<<<<<<< HEAD
   double dx_gamma = 0.5;                              // Δx_Γ: cell size of Γ [r].
   DetectionMethod detection = DetectionMethod::kTauAndSigns;
   double matching_reach = 4.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
   MatchingFrames matching_frames = MatchingFrames::kFlagged;
   MatchingSolver matching_solver = MatchingSolver::kPcg;
   double beta = 0.01;  // β: the SOR solver ends when no step is longer [Δx_Γ].
-=======
-  double dx_gamma = 0.5;  // Δx_Γ: cell size of Γ [r].
 
   // Mesh upkeep (Sec. 8): limits that must all be passed, against neighbours and against the mesh at its birth.
   double split_length = 1.5;        // A longer edge is split [Δx_Γ],
@@ -87,7 +84,6 @@ struct Parameters {
   double sliver_angle = 10.0;       // A triangle with a smaller angle is removed [deg].
 
   double delta_half_life = 0.0;  // Time in which δ halves [s]; 0: it never changes.
->>>>>>> upkeep
 };
 
 /// What a user needs to know about one parameter; the one source for command line, YAML, dynamic_reconfigure and docs.
