@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "../node_masks.h"
+#include "stages/nodes/node_masks.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
 namespace particle_surface_tracker {

@@ -7,7 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "../band_distances.h"
+#include "stages/distance_field/band_distances.h"
 #include "lattice_weights.h"
 
 namespace particle_surface_tracker {

@@ -6,8 +6,8 @@
 
 #include <openvdb/Types.h>
 
-#include "../leaf_index.h"
-#include "../leaf_masks.h"
+#include "stages/nodes/leaf_index.h"
+#include "stages/nodes/leaf_masks.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 

@@ -4,7 +4,7 @@
 
 #include <openvdb/Types.h>
 
-#include "../node_masks.h"
+#include "stages/nodes/node_masks.h"
 #include "line_signs.h"
 
 namespace particle_surface_tracker {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../node_masks.h"
+#include "stages/nodes/node_masks.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
