@@ -152,7 +152,8 @@ class MeshLattice {
   std::unique_ptr<const Data> data_;
 };
 
-/// Distances of nodes to the mesh, exact up to rounding, at most `reach`; negative where the winding number is ≥ 1: Γ.
+/// Γ: distances of nodes to the mesh, exact up to rounding, at most `reach`. Below 0 exactly where the winding number
+/// is ≥ 1, also at nodes on the mesh.
 /// \param reach [m]; the time grows with the cells within it.
 /// \return one distance [m] per node.
 std::vector<float> signed_distances(const MeshLattice& lattice, const std::vector<openvdb::Coord>& nodes, double reach);

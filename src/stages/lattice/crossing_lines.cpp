@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_sort.h>
 
+#include "crossing_finder.h"
 #include "lattice_predicates.h"
 #include "triangle_blocks.h"
-#include "triangle_slicer.h"
 
 namespace particle_surface_tracker {
 
@@ -27,6 +28,40 @@ bool is_before(const LatticeMesh& mesh, const EdgeCrossing& p, const EdgeCrossin
   return std::make_tuple(-p.step, p.triangle) < std::make_tuple(-q.step, q.triangle);
 }
 
+/// What crossings are sorted by first: two comparisons instead of six.
+struct EdgeKey {
+  std::uint64_t line;
+  std::uint64_t along;
+  std::uint32_t number;
+
+  friend bool operator<(const EdgeKey& p, const EdgeKey& q) {
+    if (p.line != q.line) return p.line < q.line;
+    return p.along != q.along ? p.along < q.along : p.number < q.number;
+  }
+};
+
+/// Keeps the order of integers.
+std::uint64_t as_unsigned(std::int32_t k) {
+  return static_cast<std::uint32_t>(k) ^ 0x80000000u;
+}
+
+/// Sorts by edge, and leaves those of one edge in their order.
+void sort_by_edge(std::vector<EdgeCrossing>& crossings) {
+  std::array<std::vector<EdgeKey>, 3> keys;
+  for (std::uint32_t n = 0; n < crossings.size(); ++n) {
+    const auto& [node, axis] = crossings[n].edge;
+    const std::uint64_t line = as_unsigned(node[(axis + 1) % 3]) << 32 | as_unsigned(node[(axis + 2) % 3]);
+    keys[axis].push_back({line, as_unsigned(node[axis]), n});
+  }
+  std::vector<EdgeCrossing> sorted;
+  sorted.reserve(crossings.size());
+  for (std::vector<EdgeKey>& some : keys) {
+    tbb::parallel_sort(some);
+    for (const EdgeKey& key : some) sorted.push_back(crossings[key.number]);
+  }
+  crossings = std::move(sorted);
+}
+
 }  // namespace
 
 CrossingLines::CrossingLines(const LatticeMesh& mesh) {
@@ -38,12 +73,8 @@ CrossingLines::CrossingLines(const LatticeMesh& mesh) {
 void CrossingLines::find(const LatticeMesh& mesh) {
   std::vector<std::vector<EdgeCrossing>> found(triangle_block_count(mesh));
   for_triangle_blocks(mesh, [&](std::size_t block, std::uint32_t begin, std::uint32_t end) {
-    TriangleSlicer slicer(mesh);
-    for (std::uint32_t t = begin; t < end; ++t) {
-      for (const LatticePoint& point : slicer.find_crossings(t)) {
-        found[block].push_back({{point.node, point.axis}, t, point.step, point.place});
-      }
-    }
+    CrossingFinder finder(mesh);
+    for (std::uint32_t t = begin; t < end; ++t) finder.append_crossings(t, found[block]);
   });
   std::size_t count = 0;
   for (const auto& part : found) count += part.size();
@@ -52,10 +83,7 @@ void CrossingLines::find(const LatticeMesh& mesh) {
 }
 
 void CrossingLines::order_edges(const LatticeMesh& mesh) {
-  tbb::parallel_sort(crossings_.begin(), crossings_.end(), [](const EdgeCrossing& p, const EdgeCrossing& q) {
-    if (p.edge != q.edge) return p.edge < q.edge;
-    return p.triangle < q.triangle;
-  });
+  sort_by_edge(crossings_);
   std::vector<std::array<std::size_t, 2>> shared;
   for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
     while (end < crossings_.size() && crossings_[end].edge == crossings_[begin].edge) ++end;

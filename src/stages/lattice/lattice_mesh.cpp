@@ -48,7 +48,7 @@ std::int32_t cell_along_axis(double x, double h) {
 /// About how many cells a triangle passes through, within a small factor.
 double estimated_cells(const Vec3d& p, const Vec3d& q, const Vec3d& r, double h) {
   const double area = 0.5 * (q - p).cross(r - p).cwiseAbs().sum();
-  const double outline = (q - p).norm() + (r - q).norm() + (p - r).norm();
+  const double outline = ((q - p).cwiseAbs() + (r - p).cwiseAbs()).sum();
   return area / (h * h) + outline / h;
 }
 

@@ -1,5 +1,6 @@
 #include "lattice_predicates.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "expansion.h"
@@ -8,11 +9,9 @@ namespace particle_surface_tracker {
 
 namespace {
 
-// Bounds of the rounding error of 2 × 2 and 3 × 3 determinants of differences, relative to the sum of the absolute
-// values of their terms (Shewchuk 1997).
-constexpr double kEpsilon = 0x1p-53;
-constexpr double kEdgeError = (3.0 + 16.0 * kEpsilon) * kEpsilon;
-constexpr double kTriangleError = (7.0 + 56.0 * kEpsilon) * kEpsilon;
+/// Bound of the rounding error of a 3 × 3 determinant of differences, relative to the sum of the absolute values of its
+/// terms (Shewchuk 1997).
+constexpr double kTriangleError = (7.0 + 56.0 * 0x1p-53) * 0x1p-53;
 
 int sign_of(double value) {
   return (value > 0.0) - (value < 0.0);
@@ -65,6 +64,13 @@ Estimate estimate_height(const Corners& corners, const Vec3d& node) {
   return estimate;
 }
 
+/// True of copies of one triangle, which nothing else needs to be computed for.
+bool have_same_corners(const Corners& first, const Corners& second) {
+  return std::all_of(first.begin(), first.end(), [&](const Vec3f* p) {
+    return std::any_of(second.begin(), second.end(), [&](const Vec3f* q) { return *p == *q; });
+  });
+}
+
 /// Where a line along `axis` through a node crosses a triangle's plane: up to a common factor, the height of the node
 /// over the plane divided by the component of the normal.
 int exact_compare(const CrossedTriangle& first, const CrossedTriangle& second, int axis, const Vec3d& node) {
@@ -75,13 +81,9 @@ int exact_compare(const CrossedTriangle& first, const CrossedTriangle& second, i
 
 }  // namespace
 
-int side_of_edge(const Vec3f& p, const Vec3f& q, int a, int b, double plane_a, double plane_b) {
-  const double left = (static_cast<double>(q[a]) - p[a]) * (plane_b - p[b]);
-  const double right = (static_cast<double>(q[b]) - p[b]) * (plane_a - p[a]);
-  const double determinant = left - right;
-  const double magnitude = std::abs(left) + std::abs(right);
-  if (std::abs(determinant) > kEdgeError * magnitude) return determinant > 0.0 ? 1 : -1;
-  if (magnitude > 0.0) {
+int doubtful_side_of_edge(const Vec3f& p, const Vec3f& q, int a, int b, double plane_a, double plane_b) {
+  const bool is_zero = (q[a] == p[a] || plane_b == p[b]) && (q[b] == p[b] || plane_a == p[a]);
+  if (!is_zero) {
     const int side = exact_side_of_edge(p, q, a, b, plane_a, plane_b);
     if (side != 0) return side;
   }
@@ -108,6 +110,7 @@ int side_of_triangle(const Corners& corners, const Vec3d& node) {
 }
 
 int compare_along_line(const CrossedTriangle& first, const CrossedTriangle& second, int axis, const Vec3d& node) {
+  if (have_same_corners(first.corners, second.corners)) return 0;
   const int order = exact_compare(first, second, axis, node);
   if (order != 0) return order;
   for (int moved = 0; moved < 3; ++moved) {

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -17,7 +19,11 @@ using openvdb::Coord;
 /// Looks for the closest triangle in the cells around a node, shell by shell.
 class NodeDistance {
  public:
-  NodeDistance(const MeshLattice& lattice, double reach) : lattice_(lattice), reach_squared_(reach * reach) {}
+  NodeDistance(const MeshLattice& lattice, double reach)
+      : lattice_(lattice),
+        positions_(lattice.positions()),
+        triangles_(lattice.triangles()),
+        reach_squared_(reach * reach) {}
 
   double find(const Coord& node) {
     const double h = lattice_.h();
@@ -29,7 +35,9 @@ class NodeDistance {
       for_cells_of(shell, [&](const Coord& offset) {
         if (0.999 * squared_gap(offset) * h * h >= closest) return;
         for (const std::uint32_t t : lattice_.triangles_in_cell(node + offset)) {
-          closest = std::min(closest, squared_distance(t, place));
+          const std::array<Vec3d, 3> corners = corners_from(t, place);
+          if (squared_distance_to_box(corners) >= closest) continue;
+          closest = std::min(closest, squared_distance_to_triangle(corners));
         }
       });
     }
@@ -60,14 +68,15 @@ class NodeDistance {
     return sum;
   }
 
-  double squared_distance(std::uint32_t triangle, const Vec3d& place) const {
-    const auto& [a, b, c] = lattice_.triangles()[triangle];
-    const std::vector<Vec3f>& positions = lattice_.positions();
-    return squared_distance_to_triangle({positions[a].cast<double>() - place, positions[b].cast<double>() - place,
-                                         positions[c].cast<double>() - place});
+  std::array<Vec3d, 3> corners_from(std::uint32_t triangle, const Vec3d& place) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {positions_[a].cast<double>() - place, positions_[b].cast<double>() - place,
+            positions_[c].cast<double>() - place};
   }
 
   const MeshLattice& lattice_;
+  const std::vector<Vec3f>& positions_;
+  const std::vector<Triangle>& triangles_;
   double reach_squared_;
 };
 
@@ -79,7 +88,8 @@ std::vector<float> signed_distances(const MeshLattice& lattice, const std::vecto
     NodeDistance distance(lattice, reach);
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
       const auto found = static_cast<float>(distance.find(nodes[n]));
-      distances[n] = lattice.winding_number(nodes[n]) >= 1 ? -found : found;
+      const bool is_inside = lattice.winding_number(nodes[n]) >= 1;
+      distances[n] = is_inside ? -std::max(found, std::numeric_limits<float>::min()) : found;
     }
   });
   return distances;

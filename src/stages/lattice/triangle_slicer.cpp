@@ -5,6 +5,7 @@
 
 #include "last_true.h"
 #include "lattice_predicates.h"
+#include "line_crossing.h"
 
 namespace particle_surface_tracker {
 
@@ -14,12 +15,6 @@ using openvdb::Coord;
 
 int next(int axis) {
   return axis == 2 ? 0 : axis + 1;
-}
-
-/// A position's share of the way from `from` to `to`, also where rounding has made them one.
-double share(double position, double from, double to) {
-  const double result = (position - from) / (to - from);
-  return result >= 0.0 && result <= 1.0 ? result : (result > 1.0 ? 1.0 : (result < 0.0 ? 0.0 : 0.5));
 }
 
 LatticePoint on_face(const Coord& node, int axis, std::uint32_t a, std::uint32_t b, std::int8_t step, double place) {
@@ -73,21 +68,19 @@ TriangleSlicer::SidePoint TriangleSlicer::side_point(std::uint32_t from, std::ui
   const Vec3f& a = mesh_->position(point.a);
   const Vec3f& b = mesh_->position(point.b);
   point.step = a[axis] < b[axis] ? 1 : -1;
-  point.place = share(mesh_->plane(k), a[axis], b[axis]);
-  for (int n = 0, along = next(axis); n < 2; ++n, along = next(along)) {
-    point.position[n] = a[along] + point.place * (static_cast<double>(b[along]) - a[along]);
-    point.square[n] = square_along(point, axis, k, along, point.position[n]);
-  }
+  point.place = std::clamp((mesh_->plane(k) - a[axis]) / (static_cast<double>(b[axis]) - a[axis]), 0.0, 1.0);
+  point.square[0] = square_along(point, axis, k, next(axis));
+  point.square[1] = square_along(point, axis, k, next(next(axis)));
   return point;
 }
 
 /// The cell along another axis that holds the point where a mesh edge crosses a plane.
-std::int32_t TriangleSlicer::square_along(const SidePoint& point, int axis, std::int32_t k, int along,
-                                          double position) const {
+std::int32_t TriangleSlicer::square_along(const SidePoint& point, int axis, std::int32_t k, int along) const {
   const auto [lower, upper] = std::minmax({mesh_->cells[point.a][along], mesh_->cells[point.b][along]});
   if (lower == upper) return lower;
   const Vec3f& a = mesh_->position(point.a);
   const Vec3f& b = mesh_->position(point.b);
+  const double position = a[along] + point.place * (static_cast<double>(b[along]) - a[along]);
   // Seen along an edge that rises, lines at which it is past the line are on the side of −1.
   return last_true(lower, upper, position / mesh_->h, [&](std::int32_t line) {
     return side_of_edge(a, b, axis, along, mesh_->plane(k), mesh_->plane(line)) * point.step < 0;
@@ -112,28 +105,14 @@ void TriangleSlicer::cross_lines(int axis) {
     node[across] = first_plane_[across] + static_cast<std::int32_t>(n);
     for (std::int32_t line = first; line <= std::max(from, to); ++line) {
       node[along] = line;
-      const double way = share(mesh_->plane(line), slice.up.position[0], slice.down.position[0]);
-      const double position = slice.up.position[1] + way * (slice.down.position[1] - slice.up.position[1]);
-      node[axis] = edge_along(slice, node, axis, facing, position);
-      const double place = share(position, mesh_->plane(node[axis]), mesh_->plane(node[axis] + 1));
+      const LineCrossing found =
+          find_on_line(*mesh_, triangle_, node, axis, facing, std::min(slice.up.square[1], slice.down.square[1]),
+                       std::max(slice.up.square[1], slice.down.square[1]));
+      node[axis] = found.edge;
       crossings_.push_back({LatticePoint::Kind::kOnLatticeEdge, static_cast<std::uint8_t>(axis),
-                            static_cast<std::int8_t>(-facing), node, triangle_, 0, place});
+                            static_cast<std::int8_t>(-facing), node, triangle_, 0, found.place});
     }
   }
-}
-
-/// The edge of a lattice line that holds the place where the triangle crosses it.
-std::int32_t TriangleSlicer::edge_along(const Slice& slice, const Coord& line, int axis, int facing,
-                                        double position) const {
-  const auto [lower, upper] = std::minmax({slice.up.square[1], slice.down.square[1]});
-  if (lower == upper) return lower;
-  const auto [a, b, c] = vertices_;
-  const Corners corners = {&mesh_->position(a), &mesh_->position(b), &mesh_->position(c)};
-  return last_true(lower, upper, position / mesh_->h, [&](std::int32_t k) {
-    Coord node = line;
-    node[axis] = k;
-    return side_of_triangle(corners, mesh_->node(node)) * facing < 0;
-  });
 }
 
 std::uint32_t TriangleSlicer::crossing(int axis, std::int32_t plane, std::int32_t line) const {

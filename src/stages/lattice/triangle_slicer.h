@@ -36,7 +36,6 @@ class TriangleSlicer {
     std::int8_t step;
     double place;                        // from a to b
     std::array<std::int32_t, 2> square;  // of the plane: cell along the next axis and the one after it
-    std::array<double, 2> position;      // along them, rounded
   };
 
   /// The triangle's part in a plane: from where its outline goes up through the plane to where it comes down.
@@ -52,10 +51,9 @@ class TriangleSlicer {
   };
 
   SidePoint side_point(std::uint32_t from, std::uint32_t to, int axis, std::int32_t k) const;
-  std::int32_t square_along(const SidePoint& point, int axis, std::int32_t k, int along, double position) const;
+  std::int32_t square_along(const SidePoint& point, int axis, std::int32_t k, int along) const;
   void slice(int axis);
   void cross_lines(int axis);
-  std::int32_t edge_along(const Slice& slice, const openvdb::Coord& line, int axis, int facing, double position) const;
   void walk(int axis, std::int32_t k, TriangleCut& result) const;
   std::uint32_t crossing(int axis, std::int32_t plane, std::int32_t line) const;
 

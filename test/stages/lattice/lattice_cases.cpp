@@ -18,6 +18,8 @@ const char* name_of(Coordinates coordinates) {
       return "on the lattice";
     case Coordinates::kNearLattice:
       return "near the lattice";
+    case Coordinates::kNudged:
+      return "next to the lattice";
     case Coordinates::kFarAway:
       return "far away";
   }
@@ -48,7 +50,8 @@ class Places {
     if (coordinates_ == Coordinates::kNearLattice) return static_cast<float>(k * h);
     const double offset = coordinates_ == Coordinates::kFarAway ? 0x1p20 : 0.0;
     const double fraction = below(2) == 0 ? 0.0 : 0.25 * static_cast<double>(below(4));
-    return static_cast<float>((offset + k + fraction) * h);
+    const double nudge = coordinates_ == Coordinates::kNudged ? 0x1p-24 * (static_cast<int>(below(3)) - 1) : 0.0;
+    return static_cast<float>((offset + k + fraction) * h + nudge);
   }
 
   std::mt19937 random_;

@@ -21,6 +21,7 @@ enum class Coordinates {
   kRandom,       ///< Anywhere.
   kOnLattice,    ///< Multiples of h, h/2 and h/4: on nodes, lattice edges and planes, parallel to each other.
   kNearLattice,  ///< fl32(fl(k·h)) for an h that is no float: next to planes, at the distance of rounding.
+  kNudged,       ///< As kOnLattice, but some by 2⁻²⁴ m off.
   kFarAway,      ///< As kOnLattice, but 2²⁰ cells from the origin.
 };
 
