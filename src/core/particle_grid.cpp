@@ -72,7 +72,7 @@ ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size
     check_range(positions[n], n, cell_size_);
     const LatticeCoord cell = cell_of(positions[n].cast<double>());
     const LatticeCoord coord = tile_of(cell);
-    if (last == nullptr || last->coord != coord) {
+    if (last == nullptr || !CoordEqual()(last->coord, coord)) {
       const auto [entry, is_new] = tile_index_.try_emplace(coord, static_cast<std::uint32_t>(tiles_.size()));
       if (is_new) tiles_.push_back({coord, {}});
       slot = entry->second;

@@ -1,4 +1,4 @@
-#include "../../src/stages/foot_point.h"
+#include "../../src/stages/projection/foot_point.h"
 
 #include <cmath>
 #include <random>

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "../../src/core/instruction_set.h"
-#include "../../src/stages/field_stencil.h"
-#include "../../src/stages/tricubic_kernel.h"
+#include "../../src/stages/projection/field_stencil.h"
+#include "../../src/stages/projection/tricubic_kernel.h"
 #include "support/fields.h"
 #include "support/shapes.h"
 

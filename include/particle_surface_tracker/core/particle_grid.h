@@ -150,11 +150,18 @@ class ParticleGrid {
     }
   };
 
+  // The comparison of arrays is a call of memcmp.
+  struct CoordEqual {
+    bool operator()(const LatticeCoord& a, const LatticeCoord& b) const {
+      return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    }
+  };
+
   double cell_size_ = 1.0;
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;
   std::vector<Tile> tiles_;
-  std::unordered_map<LatticeCoord, std::uint32_t, CoordHash> tile_index_;
+  std::unordered_map<LatticeCoord, std::uint32_t, CoordHash, CoordEqual> tile_index_;
 };
 
 }  // namespace particle_surface_tracker

@@ -8,7 +8,7 @@
 
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
-#include "../leaf_index.h"
+#include "../nodes/leaf_index.h"
 #include "lattice_mesh.h"
 
 namespace particle_surface_tracker {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lattice_parts.h"
-#include "stages/loop_filling.h"
+#include "stages/triangulation/loop_filling.h"
 
 namespace particle_surface_tracker::remeshing {
 

@@ -5,7 +5,7 @@
 #include <openvdb/Types.h>
 
 #include "particle_surface_tracker/stages/mesh_lattice.h"
-#include "stages/cell_loops.h"
+#include "stages/triangulation/cell_loops.h"
 
 namespace particle_surface_tracker::remeshing {
 

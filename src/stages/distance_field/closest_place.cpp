@@ -6,7 +6,7 @@
 
 #include <openvdb/math/Proximity.h>
 
-#include "lattice_cell.h"
+#include "stages/nodes/lattice_cell.h"
 
 namespace particle_surface_tracker {
 

@@ -8,8 +8,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <openvdb/openvdb.h>
 
-#include "leaf_index.h"
-#include "leaf_masks.h"
+#include "stages/nodes/leaf_index.h"
+#include "stages/nodes/leaf_masks.h"
 
 namespace particle_surface_tracker {
 

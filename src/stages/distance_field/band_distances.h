@@ -6,8 +6,8 @@
 
 #include <openvdb/Types.h>
 
-#include "node_masks.h"
 #include "patch_kernel.h"
+#include "stages/nodes/node_masks.h"
 #include "surface_cells.h"
 
 namespace particle_surface_tracker {

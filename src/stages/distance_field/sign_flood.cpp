@@ -1,7 +1,7 @@
 #include "sign_flood.h"
 
-#include "leaf_index.h"
-#include "node_masks.h"
+#include "stages/nodes/leaf_index.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "band_distances.h"
-#include "node_masks.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/signed_distance_field.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 

@@ -5,9 +5,9 @@
 
 #include "band_distances.h"
 #include "closest_place.h"
-#include "lattice_cell.h"
-#include "node_masks.h"
 #include "signed_leaves.h"
+#include "stages/nodes/lattice_cell.h"
+#include "stages/nodes/node_masks.h"
 #include "surface_cells.h"
 
 namespace particle_surface_tracker {

@@ -9,6 +9,7 @@ namespace particle_surface_tracker {
 
 namespace {
 
+constexpr double kGroupWidth = 2.0;  // [cells of the particles' grid]
 constexpr double kRadiusGrowth = 1.25;
 constexpr double kThreadReach = 2.0;         // times affine_max_radius
 constexpr double kLargestCorrection = 0.24;  // [r]
@@ -59,22 +60,25 @@ VertexAdvection::VertexAdvection(const SortedMotion& motion, const Parameters& p
       parameters_(parameters),
       kernel_(active_motion_kernel()),
       r_(parameters.particle_spacing),
-      cell_size_(motion.grid().cell_size()),
       plain_{static_cast<float>(parameters.affine_rank_threshold * r_ * r_),
              static_cast<float>(parameters.affine_max_stretch * parameters.affine_max_stretch)} {}
 
-void VertexAdvection::advect_cell(const LatticeCoord& cell, const std::uint32_t* begin, const std::uint32_t* end,
-                                  const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected) {
-  const Vec3d center = cell_size_ * Vec3d(cell[0], cell[1], cell[2]);
+double VertexAdvection::group_size(const ParticleGrid& particles) {
+  return kGroupWidth * particles.cell_size();
+}
+
+void VertexAdvection::advect_group(const LatticeCoord& cell, const std::uint32_t* begin, const std::uint32_t* end,
+                                   const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected) {
+  const Vec3f center = (group_size(motion_.grid()) * Vec3d(cell[0], cell[1], cell[2])).cast<float>();
   pending_.clear();
   for (const std::uint32_t* v = begin; v != end; ++v) {
     Pending pending;
     pending.vertex = *v;
-    pending.position = (vertices[*v].cast<double>() - center).cast<float>();
+    pending.position = vertices[*v] - center;
     pending_.push_back(pending);
   }
   for (double radius = parameters_.advection_radius; !pending_.empty(); radius = next_radius(radius)) {
-    gather(cell, radius);
+    gather(center, radius);
     std::size_t kept = 0;
     for (std::size_t first = 0; first < pending_.size(); first += MotionBatch::lanes) {
       evaluate(first, radius);
@@ -93,16 +97,13 @@ void VertexAdvection::advect_cell(const LatticeCoord& cell, const std::uint32_t*
   }
 }
 
-void VertexAdvection::gather(const LatticeCoord& cell, double radius) {
+void VertexAdvection::gather(const Vec3f& center, double radius) {
   GroupBox box{pending_.front().position, pending_.front().position};
   for (const Pending& pending : pending_) {
     box.lower = box.lower.cwiseMin(pending.position);
     box.upper = box.upper.cwiseMax(pending.position);
   }
-  const int reach = static_cast<int>(std::ceil(radius * r_ / cell_size_));
-  const LatticeCoord lower = {cell[0] - reach, cell[1] - reach, cell[2] - reach};
-  const LatticeCoord upper = {cell[0] + reach, cell[1] + reach, cell[2] + reach};
-  around_.gather(motion_, lower, upper, cell_size_ * Vec3d(cell[0], cell[1], cell[2]), box, radius * r_);
+  around_.gather(motion_, center, box, radius * r_);
 }
 
 void VertexAdvection::evaluate(std::size_t first, double radius) {

@@ -5,9 +5,9 @@
 
 #include <openvdb/Types.h>
 
-#include "leaf_index.h"
 #include "normal_spread.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
+#include "stages/nodes/leaf_index.h"
 
 namespace particle_surface_tracker {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "leaf_masks.h"
+#include "stages/nodes/leaf_masks.h"
 
 namespace particle_surface_tracker {
 

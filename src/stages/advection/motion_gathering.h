@@ -35,11 +35,10 @@ class SortedMotion {
 /// The particles around a group of vertices, ready for the sums. One object per thread.
 class Neighborhood {
  public:
-  /// Takes the particles of cells lower..upper that are nearer than `radius` to the box, in the order of the grid.
-  /// Whatever the box, the reference is the displacement of the first particle in these cells, so that what a vertex
-  /// gets does not depend on the others of its group.
-  void gather(const SortedMotion& motion, const LatticeCoord& lower, const LatticeCoord& upper, const Vec3d& origin,
-              const GroupBox& box, double radius);
+  /// Takes the particles that are nearer than `radius` to the box, in the order of the grid.
+  /// \param origin [m]; in single precision, so that places relative to it lose next to nothing however far they are
+  /// from the origin of the world.
+  void gather(const SortedMotion& motion, const Vec3f& origin, const GroupBox& box, double radius);
 
   /// Sums over the particles for every lane of a batch (Sec. 4, poly6).
   void sum(const MotionKernel& kernel, double radius, MotionBatch& batch);
@@ -50,6 +49,7 @@ class Neighborhood {
   const Vec3f& reference() const { return reference_; }
 
  private:
+  Eigen::ArrayXf squared_beyond_;  // How far the particles of one range are beyond the box [m²].
   std::vector<NearParticle> particles_;
   std::size_t count_ = 0;
   Vec3f reference_ = Vec3f::Zero();

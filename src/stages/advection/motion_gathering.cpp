@@ -1,6 +1,6 @@
 #include "motion_gathering.h"
 
-#include <algorithm>
+#include <array>
 
 namespace particle_surface_tracker {
 
@@ -16,33 +16,35 @@ SortedMotion::SortedMotion(const ParticleMotion& motion, const ParticleGrid& gri
   for (const std::uint32_t particle : grid.index()) displacements_.push_back(motion.displacements[particle]);
 }
 
-void Neighborhood::gather(const SortedMotion& motion, const LatticeCoord& lower, const LatticeCoord& upper,
-                          const Vec3d& origin, const GroupBox& box, double radius) {
+void Neighborhood::gather(const SortedMotion& motion, const Vec3f& origin, const GroupBox& box, double radius) {
   const ParticleGrid& grid = motion.grid();
-  const float* const coordinates[] = {grid.x().data(), grid.y().data(), grid.z().data()};
+  const std::array<const float*, 3> coordinates = {grid.x().data(), grid.y().data(), grid.z().data()};
   const auto squared_reach = static_cast<float>(radius * radius * (1.0 + kSlack));
+  const Vec3d extent = Vec3d::Constant(radius * (1.0 + kSlack));
+  const LatticeCoord lower = grid.cell_of((origin + box.lower).cast<double>() - extent);
+  const LatticeCoord upper = grid.cell_of((origin + box.upper).cast<double>() + extent);
   bool has_reference = false;
   count_ = 0;
-  grid.for_each_range(lower, upper, [&](std::uint32_t begin, std::uint32_t end) {
+  grid.for_each_long_range(lower, upper, [&](std::uint32_t begin, std::uint32_t end) {
     if (!has_reference) {
       reference_ = motion.displacement(begin);
       has_reference = true;
     }
-    // One more place than particles: each is written before it is known whether it stays.
-    if (particles_.size() < count_ + (end - begin) + 1) particles_.resize(2 * (count_ + (end - begin)) + 1);
-    for (std::uint32_t n = begin; n < end; ++n) {
-      NearParticle& p = particles_[count_];
-      float squared_distance = 0.0f;
-      for (int axis = 0; axis < 3; ++axis) {
-        p.position[axis] = static_cast<float>(coordinates[axis][n] - origin[axis]);
-        const float beyond =
-            std::max(std::max(box.lower[axis] - p.position[axis], p.position[axis] - box.upper[axis]), 0.0f);
-        squared_distance += beyond * beyond;
-      }
-      const Vec3f u = motion.displacement(n) - reference_;
+    const Eigen::Index size = end - begin;
+    if (squared_beyond_.size() < size) squared_beyond_.resize(2 * size);
+    const auto squared_beyond = [&](int axis) {
+      const auto place = Eigen::Map<const Eigen::ArrayXf>(coordinates[axis] + begin, size) - origin[axis];
+      return (box.lower[axis] - place).max(place - box.upper[axis]).max(0.0f).square();
+    };
+    squared_beyond_.head(size) = squared_beyond(0) + squared_beyond(1) + squared_beyond(2);
+    if (particles_.size() < count_ + size) particles_.resize(2 * (count_ + size));
+    for (Eigen::Index n = 0; n < size; ++n) {
+      if (squared_beyond_[n] >= squared_reach) continue;
+      NearParticle& p = particles_[count_++];
+      for (int axis = 0; axis < 3; ++axis) p.position[axis] = coordinates[axis][begin + n] - origin[axis];
+      const Vec3f u = motion.displacement(begin + n) - reference_;
       p.displacement = {u.x(), u.y(), u.z()};
       p.squared_displacement = u.squaredNorm();
-      count_ += squared_distance < squared_reach ? 1 : 0;
     }
   });
 }

@@ -35,9 +35,8 @@ std::vector<Vec3f> advect(const std::vector<Vec3f>& vertices, const ParticleMoti
   std::vector<Vec3f> advected = vertices;
   if (motion.positions.empty() || vertices.empty()) return advected;
 
-  // Vertices of one cell share the particles around it.
   const SortedMotion sorted(motion, grid);
-  const ParticleGrid vertex_grid(vertices, grid.cell_size());
+  const ParticleGrid vertex_grid(vertices, VertexAdvection::group_size(grid));
   const auto& tiles = vertex_grid.tiles();
   const std::uint32_t* const order = vertex_grid.index().data();
   tbb::enumerable_thread_specific<VertexAdvection> advections([&] { return VertexAdvection(sorted, parameters); });
@@ -46,7 +45,7 @@ std::vector<Vec3f> advect(const std::vector<Vec3f>& vertices, const ParticleMoti
         VertexAdvection& advection = advections.local();
         for (std::size_t t = range.begin(); t != range.end(); ++t) {
           ParticleGrid::for_each_cell(tiles[t], [&](const LatticeCoord& cell, std::uint32_t begin, std::uint32_t end) {
-            advection.advect_cell(cell, order + begin, order + end, vertices, advected);
+            advection.advect_group(cell, order + begin, order + end, vertices, advected);
           });
         }
       });
