@@ -6,7 +6,7 @@
 
 #include <openvdb/Types.h>
 
-#include "stages/node_masks.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker::remeshing {
 

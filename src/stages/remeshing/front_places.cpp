@@ -72,37 +72,69 @@ class FrontPlacer {
     const double doubled_area = normal.norm();
     const double h = lattice_.h();
 
-    // Three lattice edges that end in one node can be crossed next to it: in the triangle's plane, the points move
-    // away from it.
     Vec3d place(lattice_.plane(point.node.x()), lattice_.plane(point.node.y()), lattice_.plane(point.node.z()));
     place[point.axis] += point.place * h;
-    Vec3d along = Vec3d::Unit(point.axis);
-    if (doubled_area > 0.0) along -= along.dot(normal) / (doubled_area * doubled_area) * normal;
-    place += h * (std::max(kFrontGap - point.place, 0.0) - std::max(kFrontGap - (1.0 - point.place), 0.0)) * along;
-
     std::array<double, 3> weights{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-    if (doubled_area > 0.0) weights = weights_within(corners, normal, doubled_area, place);
+    if (doubled_area > 0.0) {
+      const Vec3d unit = normal / doubled_area;
+      weights = spread_weights(corners, unit, doubled_area, place);
+      place = weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+      // Three lattice edges that end in one node can be crossed next to it: in the triangle's plane, the points move
+      // away from it.
+      const double past_node =
+          std::max(kFrontGap - point.place, 0.0) - std::max(kFrontGap - (1.0 - point.place), 0.0);
+      const Vec3d along = Vec3d::Unit(point.axis) - unit[point.axis] * unit;
+      weights = clamped_weights(corners, unit, doubled_area, place + past_node * h * along);
+    }
     vertex.position = weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
     vertex.blend = {{t[0], weights[0]}, {t[1], weights[1]}, {t[2], weights[2]}};
   }
 
-  /// Barycentric coordinates of a place, pulled into the triangle.
-  std::array<double, 3> weights_within(const std::array<Vec3d, 3>& corners, const Vec3d& normal, double doubled_area,
-                                       const Vec3d& place) const {
+  /// Barycentric coordinates of a place in the plane of a triangle.
+  static std::array<double, 3> weights_at(const std::array<Vec3d, 3>& corners, const Vec3d& unit, double doubled_area,
+                                          const Vec3d& place) {
     std::array<double, 3> weights;
-    std::array<double, 3> least;
-    double sum = 0.0;
-    double least_sum = 0.0;
     for (int k = 0; k < 3; ++k) {
       const Vec3d& p = corners[(k + 1) % 3];
-      const Vec3d side = corners[(k + 2) % 3] - p;
-      least[k] = std::min(kFrontGap * lattice_.h() * side.norm() / doubled_area, kGreatestGap);
-      least_sum += least[k];
-      weights[k] = std::max(side.cross(place - p).dot(normal) / (doubled_area * doubled_area) - least[k], 0.0);
+      weights[k] = (corners[(k + 2) % 3] - p).cross(place - p).dot(unit) / doubled_area;
+    }
+    return weights;
+  }
+
+  /// Weights that belong to a distance of two gaps from each side, or to a small part of the height.
+  std::array<double, 3> gap_weights(const std::array<Vec3d, 3>& corners, double doubled_area) const {
+    std::array<double, 3> gaps;
+    for (int k = 0; k < 3; ++k) {
+      const double side = (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm();
+      gaps[k] = std::min(2.0 * kFrontGap * lattice_.h() * side / doubled_area, kGreatestGap);
+    }
+    return gaps;
+  }
+
+  /// Weights of a place that is moved away from the sides where it is closer than two gaps, to between one and two: what
+  /// is apart stays apart.
+  std::array<double, 3> spread_weights(const std::array<Vec3d, 3>& corners, const Vec3d& unit, double doubled_area,
+                                       const Vec3d& place) const {
+    std::array<double, 3> weights = weights_at(corners, unit, doubled_area, place);
+    const std::array<double, 3> gaps = gap_weights(corners, doubled_area);
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      weights[k] = std::max(weights[k], 0.0);
+      if (weights[k] < gaps[k]) weights[k] = 0.5 * (gaps[k] + weights[k]);
       sum += weights[k];
     }
-    if (!(sum > 0.0)) return {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
-    for (int k = 0; k < 3; ++k) weights[k] = least[k] + weights[k] * (1.0 - least_sum) / sum;
+    for (double& weight : weights) weight /= sum;
+    return weights;
+  }
+
+  /// Weights of a place that must not come closer to the sides than half a gap.
+  std::array<double, 3> clamped_weights(const std::array<Vec3d, 3>& corners, const Vec3d& unit, double doubled_area,
+                                        const Vec3d& place) const {
+    std::array<double, 3> weights = weights_at(corners, unit, doubled_area, place);
+    const std::array<double, 3> gaps = gap_weights(corners, doubled_area);
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += weights[k] = std::max(weights[k], 0.25 * gaps[k]);
+    for (double& weight : weights) weight /= sum;
     return weights;
   }
 

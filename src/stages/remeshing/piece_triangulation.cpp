@@ -29,8 +29,9 @@ double badness(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const double lengths = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
   if (lengths <= 0.0) return 1.0;
   const double quality = 2.0 * std::sqrt(3.0) * area / lengths;
+  constexpr double kRounding = 1.0e-9;
   constexpr double kTurnedOver = 1000.0;
-  return quality >= 0.0 ? 1.0 - quality : 1.0 - kTurnedOver * quality;
+  return quality >= -kRounding ? 1.0 - quality : 10.0 - kTurnedOver * quality;
 }
 
 class PieceTriangulator {
@@ -47,7 +48,6 @@ class PieceTriangulator {
   }
 
   bool run() {
-    const std::size_t first = triangles_.size();
     polygon_ = piece_.loops.front();
     std::vector<std::vector<std::uint32_t>> others(piece_.loops.begin() + 1, piece_.loops.end());
     while (!others.empty()) {
@@ -56,7 +56,14 @@ class PieceTriangulator {
     while (polygon_.size() > kMostVertices) {
       if (!cut_best_ear()) return false;
     }
-    return triangulate_polygon() && is_sound(first);
+    const std::size_t first = triangles_.size();
+    constexpr int kAttempts = 8;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (!triangulate_polygon()) return false;
+      if (forbid_doubled_sides(first)) return true;
+      triangles_.resize(first);
+    }
+    return false;
   }
 
  private:
@@ -75,7 +82,7 @@ class PieceTriangulator {
       if (c == a || c == b || d == a || d == b) return false;
       const Vector2d& r = places_[c];
       const Vector2d& s = places_[d];
-      return doubled_area(p, q, r) * doubled_area(p, q, s) <= 0.0 && doubled_area(r, s, p) * doubled_area(r, s, q) <= 0.0;
+      return doubled_area(p, q, r) * doubled_area(p, q, s) < 0.0 && doubled_area(r, s, p) * doubled_area(r, s, q) < 0.0;
     });
   }
 
@@ -96,10 +103,12 @@ class PieceTriangulator {
     }
     std::stable_sort(bridges.begin(), bridges.end(),
                      [](const Bridge& a, const Bridge& b) { return a.length < b.length; });
-    const auto good = std::find_if(bridges.begin(), bridges.end(), [&](const Bridge& bridge) {
+    if (bridges.empty()) return false;
+    auto good = std::find_if(bridges.begin(), bridges.end(), [&](const Bridge& bridge) {
       return !crosses_border(polygon_[bridge.at], others[bridge.loop][bridge.to]);
     });
-    if (good == bridges.end()) return false;
+    // Where places coincide, every bridge may seem to cross something.
+    if (good == bridges.end()) good = bridges.begin();
     std::vector<std::uint32_t>& loop = others[good->loop];
     const std::uint32_t from = polygon_[good->at];
     const std::uint32_t to = loop[good->to];
@@ -186,17 +195,21 @@ class PieceTriangulator {
     return true;
   }
 
-  /// True if the new triangles join no two vertices twice and no vertex with itself.
-  bool is_sound(std::size_t first) const {
+  /// A vertex that occurs twice in the polygon can be joined to another one twice. Such sides are forbidden from now on.
+  /// \return true if there are none.
+  bool forbid_doubled_sides(std::size_t first) {
     std::vector<Pair> sides;
     for (std::size_t t = first; t < triangles_.size(); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        sides.push_back({triangles_[t][k], triangles_[t][(k + 1) % 3]});
-        if (sides.back().first == sides.back().second) return false;
-      }
+      for (int k = 0; k < 3; ++k) sides.emplace_back(triangles_[t][k], triangles_[t][(k + 1) % 3]);
     }
     std::sort(sides.begin(), sides.end());
-    return std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+    bool none = true;
+    for (std::size_t n = 1; n < sides.size(); ++n) {
+      if (sides[n] != sides[n - 1]) continue;
+      add_border_pair(sides[n].first, sides[n].second);
+      none = false;
+    }
+    return none;
   }
 
   const FlatPiece& piece_;

@@ -9,7 +9,7 @@ namespace particle_surface_tracker::remeshing {
 
 namespace {
 
-/// How far a vertex is moved off another one, times the number of attempts [cells].
+/// How far a vertex is moved off another one; farther if there are many [cells].
 constexpr double kNudge = 1.0e-3;
 constexpr int kMostRounds = 16;
 
@@ -23,11 +23,11 @@ bool comes_before(const RoundedPlace& p, const RoundedPlace& q) {
          std::make_tuple(q.position.x(), q.position.y(), q.position.z(), q.vertex);
 }
 
-/// A small step that changes the position also where the numbers are too coarse for it.
-void nudge(Vec3d& position, int round, double h) {
-  const int axis = round % 3;
+/// A small step, another one for every number, that changes the position also where floats are too coarse for it.
+void nudge(Vec3d& position, int number, double h) {
+  const int axis = number % 3;
   const double resolution = std::abs(position[axis]) * std::numeric_limits<float>::epsilon();
-  position[axis] += (round % 2 == 0 ? 1.0 : -1.0) * (round + 1) * std::max(kNudge * h, 2.0 * resolution);
+  position[axis] += (number % 2 == 0 ? 1.0 : -1.0) * (1 + number / 3) * std::max(kNudge * h, 2.0 * resolution);
 }
 
 /// The vertices of the patch's triangles, each once.
@@ -52,10 +52,12 @@ void keep_places_apart(const std::vector<Vec3f>& positions, double h, Patch& pat
     }
     std::sort(places.begin(), places.end(), comes_before);
     bool found = false;
-    // Vertices of the mesh come first among equals, and stay.
+    int equals = 0;
     for (std::size_t n = 1; n < places.size(); ++n) {
-      if (places[n].position != places[n - 1].position || !patch.is_new(places[n].vertex)) continue;
-      nudge(patch.vertex(places[n].vertex).position, round, h);
+      equals = places[n].position == places[n - 1].position ? equals + 1 : 0;
+      // Vertices of the mesh come first among equals, and stay.
+      if (equals == 0 || !patch.is_new(places[n].vertex)) continue;
+      nudge(patch.vertex(places[n].vertex).position, round + equals, h);
       found = true;
     }
     if (!found) return;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "cell_complexity.h"
@@ -85,8 +84,7 @@ class Remesher {
     growth_.run();
     Patch patch(mesh_.vertex_count());
     trouble_ = cut_mesh(cuts_, marked_, patch);
-    if (!trouble_.empty()) { fmt::print("DBG trouble {}\n", trouble_.size()); return false; }
-    if (!fill_cells(marked_, gamma_, tracer_, patch)) { fmt::print("DBG fill\n"); return false; }
+    if (!trouble_.empty() || !fill_cells(marked_, gamma_, tracer_, patch)) return false;
     drop_small_components(patch);
     place_filling(gamma_, patch);
     smooth_filling(lattice_.h(), patch);
@@ -95,7 +93,7 @@ class Remesher {
 
     TriangleMesh result = mesh_;
     apply(patch, result);
-    if (!is_sound(result)) {  fmt::print("DBG unsound {}\n", describe_mesh_defects(result.positions(), result.triangles())); return false; }
+    if (!is_sound(result)) return false;
     mesh_ = std::move(result);
     report_.removed_triangles = patch.removed.size();
     report_.new_triangles = patch.triangles.size();

@@ -81,7 +81,9 @@ TEST(RemeshingTorture, AlwaysGivesASoundMesh) {
     if (HasFailure()) break;
   }
   std::printf("%zu changed, %zu retries, %zu fallbacks\n", changed, retries, fallbacks);
-  EXPECT_GT(changed, cases / 2);
+  if (!HasFailure()) {
+    EXPECT_GT(changed, cases / 2);
+  }
 }
 
 TEST(RemeshingTorture, GivesTheSameBytesForAnyNumberOfThreads) {
