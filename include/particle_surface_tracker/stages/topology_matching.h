@@ -36,9 +36,9 @@ struct MatchedVoxelization {
 ///
 /// Unknown are the nodes within matching_reach of a flagged node (one at a flagged cell) that are not fixed. Fixed is a
 /// node that is not flagged, around which the mesh winds 0 or 1 times, and that has a node of the other side among its
-/// 26 neighbours (so that |Γ| ≤ h√3). Where Γ changes sides near the rim of that region, the region grows there. Without
-/// flagged cells nothing is done, unless matching_frames asks for it: then all nodes within matching_reach of mesh or
-/// isosurface are looked at.
+/// 26 neighbours (so that |Γ| ≤ h√3). Where Γ changes sides near the rim of that region, the region grows there.
+/// Without flagged cells nothing is done, unless matching_frames asks for it: then all nodes within matching_reach of
+/// mesh or isosurface are looked at.
 /// \param lattice of the mesh.
 /// \param surface of the frame that the mesh is now in.
 /// \param flagged_cells cells of Γ.

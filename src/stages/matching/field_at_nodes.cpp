@@ -14,6 +14,10 @@ namespace particle_surface_tracker {
 
 namespace {
 
+/// Rounding can leave the squared distance of a node next to the isosurface below 0. No distance becomes 0, which would
+/// have lost its sign [cells²].
+constexpr float kSmallestSquared = 1e-8f;
+
 using LeafValues = std::array<float, 512>;
 
 std::size_t place_of(const openvdb::Coord& node) {
@@ -71,10 +75,11 @@ std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& no
       for (int x = 0; x < 8; ++x) {
         for_each_bit(needed.leaves()[n].words[x], [&](int bit) {
           const std::size_t place = 64 * x + bit;
-          const double distance =
-              near_leaf[n] == LeafIndex::none
-                  ? reach
-                  : std::min(reach, std::sqrt(static_cast<double>(squared[near_leaf[n]][place])) * surface_.dx);
+          double distance = reach;
+          if (near_leaf[n] != LeafIndex::none) {
+            const float known = std::max(squared[near_leaf[n]][place], kSmallestSquared);
+            distance = std::min(reach, std::sqrt(static_cast<double>(known)) * surface_.dx);
+          }
           const bool is_inside = (signs.inside[x] >> bit & 1) != 0;
           values[n][place] = static_cast<float>(is_inside ? -distance : distance);
         });

@@ -28,9 +28,8 @@ FieldLeaf read_leaf(const openvdb::FloatTree::LeafNodeType& leaf) {
   const float* values = leaf.buffer().data();
   for (int x = 0; x < kWidth; ++x) {
     signs.active[x] = leaf.getValueMask().getWord<openvdb::Index64>(x);
-    for_each_bit(signs.active[x], [&](int bit) {
-      signs.inside[x] |= static_cast<std::uint64_t>(values[64 * x + bit] < 0.0f) << bit;
-    });
+    for_each_bit(signs.active[x],
+                 [&](int bit) { signs.inside[x] |= static_cast<std::uint64_t>(values[64 * x + bit] < 0.0f) << bit; });
   }
   return signs;
 }
@@ -41,8 +40,8 @@ LineSigns::LineSigns(const std::vector<Crossing>& crossings) : index_(64) {
   std::vector<std::uint32_t> column_of(crossings.size());
   for (std::size_t n = 0; n < crossings.size(); ++n) {
     const openvdb::Coord origin = column_origin(crossings[n].node);
-    std::uint32_t number = n > 0 && column_origin(crossings[n - 1].node) == origin ? column_of[n - 1]
-                                                                                   : index_.find(origin);
+    std::uint32_t number =
+        n > 0 && column_origin(crossings[n - 1].node) == origin ? column_of[n - 1] : index_.find(origin);
     if (number == LeafIndex::none) {
       number = static_cast<std::uint32_t>(columns_.size());
       index_.insert(origin, number);

@@ -18,9 +18,8 @@ NodesAtIsosurface nodes_of_field(const ImplicitSurface& surface) {
     LeafWords& outside = nodes.outside.words_at(leaf->origin());
     const float* values = leaf->buffer().data();
     for (int x = 0; x < 8; ++x) {
-      for_each_bit(leaf->getValueMask().getWord<openvdb::Index64>(x), [&](int bit) {
-        (values[64 * x + bit] < 0.0f ? inside : outside)[x] |= std::uint64_t{1} << bit;
-      });
+      for_each_bit(leaf->getValueMask().getWord<openvdb::Index64>(x),
+                   [&](int bit) { (values[64 * x + bit] < 0.0f ? inside : outside)[x] |= std::uint64_t{1} << bit; });
     }
   }
   return nodes;

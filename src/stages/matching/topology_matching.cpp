@@ -141,9 +141,10 @@ NodeMasks whole_domain(const NodeMasks& surfaces) {
   const openvdb::Coord size = box.dim();
   const double nodes = static_cast<double>(size.x()) * size.y() * size.z();
   if (nodes > kLargestDomain) {
-    throw TrackingError(fmt::format(
-        "matching_reach is 0, but the box around the surface has {} × {} × {} nodes of Γ, more than {:.0f}; set a reach",
-        size.x(), size.y(), size.z(), kLargestDomain));
+    throw TrackingError(
+        fmt::format("matching_reach is 0, but the box around the surface has {} × {} × {} nodes of Γ, more than "
+                    "{:.0f}; set a reach",
+                    size.x(), size.y(), size.z(), kLargestDomain));
   }
   for (auto node = box.begin(); node; ++node) domain.insert(*node);
   return domain;

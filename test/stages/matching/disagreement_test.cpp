@@ -130,8 +130,7 @@ TEST(Disagreement, ARigidMotionOfADetailedBodyFlagsNothing) {
     EXPECT_TRUE(tracker.detection().flagged_cells.empty());
     const TriangleMesh& mesh = tracker.mesh();
     const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
-    const Disagreement found =
-        find_disagreement(lattice, mesh.delta(), *tracker.implicit_surface(), parameters);
+    const Disagreement found = find_disagreement(lattice, mesh.delta(), *tracker.implicit_surface(), parameters);
     EXPECT_TRUE(found.nodes.empty()) << "frame " << n << ": " << found.nodes.size() << " nodes";
   }
 }

@@ -95,6 +95,20 @@ TEST(FieldAtNodes, AnotherLatticeIsInterpolatedLinearly) {
   }
 }
 
+TEST(FieldAtNodes, NodesOnTheIsosurfaceAreNearIt) {
+  // The squared distance of one of these nodes is rounded to below 0.
+  const Body plate = [](const Vec3d& p) {
+    return std::max({std::abs(p.x()) - 1.5, std::abs(p.y()) - 1.5, std::abs(p.z()) - 0.1});
+  };
+  std::vector<openvdb::Coord> nodes;
+  for (int x = -29; x < 30; ++x) {
+    for (int y = -29; y < 30; ++y) nodes.emplace_back(x, y, -2);
+  }
+  for (const float phi : FieldAtNodes(make_surface(plate), kH).distances(nodes, 2.0 * kH)) {
+    EXPECT_LT(std::abs(phi), 0.01 * kH);
+  }
+}
+
 TEST(FieldAtNodes, WithoutASurfaceEverythingIsOutside) {
   const ImplicitSurface surface = make_surface([](const Vec3d&) { return 1.0; });
   EXPECT_EQ(FieldAtNodes(surface, kH).distances({{0, 0, 0}, {5, -3, 100}}, 0.3), std::vector<float>(2, 0.3f));

@@ -15,9 +15,9 @@
 /// Bodies whose signed distances are known, and what happens to them.
 namespace particle_surface_tracker::test::matching {
 
-constexpr double kR = 0.1;        ///< r [m].
-constexpr double kH = 0.5 * kR;   ///< Δx_Γ [m].
-constexpr int kHalfWidth = 40;    ///< Everything is within so many nodes of the origin, on the lattice of Γ.
+constexpr double kR = 0.1;       ///< r [m].
+constexpr double kH = 0.5 * kR;  ///< Δx_Γ [m].
+constexpr int kHalfWidth = 40;   ///< Everything is within so many nodes of the origin, on the lattice of Γ.
 
 using Body = std::function<double(const Vec3d&)>;  ///< Signed distance [m].
 
@@ -25,8 +25,8 @@ Parameters make_parameters();
 
 Body ball(const Vec3d& center, double radius);
 Body capsule(const Vec3d& from, const Vec3d& to, double radius);
-Body either(const Body& a, const Body& b);    ///< Union.
-Body without(const Body& a, const Body& b);   ///< Difference.
+Body either(const Body& a, const Body& b);   ///< Union.
+Body without(const Body& a, const Body& b);  ///< Difference.
 
 /// φ of a body.
 ImplicitSurface make_surface(const Body& body, double dx = kH);

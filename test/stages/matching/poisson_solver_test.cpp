@@ -12,8 +12,8 @@
 namespace particle_surface_tracker {
 namespace {
 
-constexpr double kH = 0.05;           // [m]
-constexpr double kBeta = 0.01 * kH;   // [m]
+constexpr double kH = 0.05;          // [m]
+constexpr double kBeta = 0.01 * kH;  // [m]
 constexpr int kManyIterations = 100000;
 
 /// A box of nodes of which some are fixed, some are missing and the others unknown.

@@ -199,7 +199,12 @@ TEST(TopologyMatching, InEveryFrameItFindsWhatWasNotFlagged) {
   const Body bubble = ball({-0.52, 0.01, 0.02}, 0.15);
   const Case born(either(kLeft, kRight), without(either(kLeft, kRight), bubble), [](const Vec3d&) { return false; });
   const MatchedVoxelization matched = born.match(with("matching_frames", "every"));
-  EXPECT_EQ(Nodes(matched.changed.begin(), matched.changed.end()), nodes_inside(bubble));
+  // Mesh and φ are sampled differently, so that Γ = φ + ψ has its zero a few hundredths of a cell away from φ's.
+  const Nodes changed(matched.changed.begin(), matched.changed.end());
+  for (const openvdb::Coord& node : nodes_inside(bubble))
+    EXPECT_TRUE(changed.count(node) || bubble(place(node)) > -0.1 * kH);
+  for (const openvdb::Coord& node : changed) EXPECT_LT(bubble(place(node)), 0.1 * kH);
+  EXPECT_FALSE(changed.empty());
   EXPECT_EQ(matched.statistics.flagged_nodes, 0u);
 }
 
