@@ -59,6 +59,7 @@ Json body_of(const FrameReport& report) {
   json["particles_gone"] = report.particles_gone;
   json["flagged_cells"] = report.flagged_cells;
   json["unreached_vertices"] = report.unreached_vertices;
+  if (report.self_intersecting_triangles) json["self_intersecting_triangles"] = *report.self_intersecting_triangles;
   json["warnings"] = report.warnings;
   return json;
 }

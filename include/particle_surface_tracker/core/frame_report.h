@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct FrameReport {
   std::size_t flagged_cells = 0;            ///< Cells of Γ flagged for topology matching.
   std::size_t unreached_vertices = 0;       ///< Of the flagged: those with no φ = 0 within reach.
   std::size_t original_vertices_alive = 0;  ///< Vertices of the first mesh that still live.
+
+  /// Share of the triangles that intersect others, in [0, 1]; none where the mesh was not checked.
+  std::optional<double> self_intersecting_triangles;
 
   /// What one stage took.
   struct StageTime {
