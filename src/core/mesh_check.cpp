@@ -187,7 +187,8 @@ void check_geometry(const std::vector<Vec3f>& positions, const Selection& sound,
   const bool is_tree_needed = options.self_intersections || (options.nesting && components.components.size() > 1);
   const TriangleTree tree(positions, triangles, is_tree_needed ? spread : std::vector<std::uint32_t>());
   if (options.self_intersections) {
-    check.self_intersecting_triangles = count_in_pairs(positions, sound, find_meeting_pairs(positions, triangles, tree));
+    check.self_intersecting_triangles =
+        count_in_pairs(positions, sound, find_meeting_pairs(positions, triangles, tree));
   }
   if (options.nesting) measure_nesting(positions, triangles, tree, components);
   check.components = std::move(components.components);

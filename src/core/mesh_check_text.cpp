@@ -33,17 +33,32 @@ std::vector<NamedMeshDefect> list_defects(const MeshDefects& defects) {
 
 std::vector<NamedMeshDefect> list_defects(const MeshCheck& check) {
   std::vector<NamedMeshDefect> kinds = list_defects(check.defects);
-  kinds.insert(
-      kinds.end(),
-      {{"flat_triangles", "triangles are flat (their corners lie on a line)", "triangle", &check.flat_triangles},
-       {"self_intersecting_triangles", "triangles intersect others", "triangle", &check.self_intersecting_triangles},
-       {"inside_out_components", "components are inside out (negative volume, in no solid)", "component",
-        &check.inside_out_components},
-       {"solids_in_solids", "components are solids inside a solid", "component", &check.solids_in_solids},
-       {"cavities_in_overlaps", "components are cavities inside more than one solid", "component",
-        &check.cavities_in_overlaps},
-       {"components_without_volume", "components have no volume", "component", &check.components_without_volume}});
+  kinds.push_back(
+      {"flat_triangles", "triangles are flat (their corners lie on a line)", "triangle", &check.flat_triangles});
+  kinds.push_back(
+      {"self_intersecting_triangles", "triangles intersect others", "triangle", &check.self_intersecting_triangles});
+  const std::vector<NamedMeshDefect> nesting = list_nesting_defects(check);
+  kinds.insert(kinds.end(), nesting.begin(), nesting.end());
   return kinds;
+}
+
+std::vector<NamedMeshDefect> list_nesting_defects(const MeshCheck& check) {
+  return {{"inside_out_components", "components are inside out (negative volume, in no solid)", "component",
+           &check.inside_out_components},
+          {"solids_in_solids", "components are solids inside a solid", "component", &check.solids_in_solids},
+          {"cavities_in_overlaps", "components are cavities inside more than one solid", "component",
+           &check.cavities_in_overlaps},
+          {"components_without_volume", "components have no volume", "component", &check.components_without_volume}};
+}
+
+std::string describe(const std::vector<NamedMeshDefect>& kinds) {
+  std::string text;
+  for (const NamedMeshDefect& kind : kinds) {
+    if (kind.defect->count == 0) continue;
+    text += fmt::format("{}{} {}, first {}", text.empty() ? "" : "; ", kind.defect->count, kind.text,
+                        describe_place(kind.element, kind.defect->places.front()));
+  }
+  return text;
 }
 
 std::string describe_place(const char* element, const MeshPlace& place) {

@@ -86,7 +86,8 @@ MeshComponents measure_components(const std::vector<Vec3f>& positions, const std
   for (MeshComponent& component : found.components) {
     if (!component.is_closed) component.volume = 0.0;
     // χ = V − E + F with E = 3/2 F on a closed surface, and χ = 2 − 2 genus.
-    const auto two_chi = 2 * static_cast<std::int64_t>(component.vertices) - static_cast<std::int64_t>(component.triangles);
+    const auto two_chi =
+        2 * static_cast<std::int64_t>(component.vertices) - static_cast<std::int64_t>(component.triangles);
     if (component.is_manifold) component.genus = (4 - two_chi) / 4;
   }
   return found;

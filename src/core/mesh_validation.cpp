@@ -17,13 +17,7 @@ std::string describe_mesh_defects(const std::vector<Vec3f>& positions, const std
     const std::uint32_t highest = *std::max_element(triangles[first].begin(), triangles[first].end());
     return fmt::format("triangle {} names vertex {}, but there are only {}", first, highest, positions.size());
   }
-  std::string text;
-  for (const NamedMeshDefect& kind : list_defects(defects)) {
-    if (kind.defect->count == 0) continue;
-    text += fmt::format("{}{} {}, first {}", text.empty() ? "" : "; ", kind.defect->count, kind.text,
-                        describe_place(kind.element, kind.defect->places.front()));
-  }
-  return text;
+  return describe(list_defects(defects));
 }
 
 void check_closed_manifold(const TriangleMesh& mesh) {

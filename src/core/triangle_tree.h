@@ -99,7 +99,9 @@ class TriangleTree {
     const bool descend_in_a = a.size() >= b.size();
     const Node& larger = descend_in_a ? a : b;
     const Node& other = descend_in_a ? b : a;
-    const auto with = [&](const Node& child) { return [this, child, &other, &visit] { visit_pairs(child, other, visit); }; };
+    const auto with = [&](const Node& child) {
+      return [this, child, &other, &visit] { visit_pairs(child, other, visit); };
+    };
     if (larger.size() >= kTaskSize) {
       tbb::parallel_invoke(with(larger.left()), with(larger.right()));
     } else {

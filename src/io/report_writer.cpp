@@ -85,6 +85,7 @@ Json body_of(const FrameReport& report) {
   json["unreached_vertices"] = report.unreached_vertices;
   json["topology"] = topology_of(report.topology);
   json["upkeep"] = upkeep_of(report.upkeep);
+  if (report.self_intersecting_triangles) json["self_intersecting_triangles"] = *report.self_intersecting_triangles;
   json["warnings"] = report.warnings;
   return json;
 }

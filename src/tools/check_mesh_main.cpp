@@ -1,6 +1,6 @@
 // check_mesh: says whether mesh files hold closed, oriented manifolds without self-intersections, and what is wrong.
 
-#include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -56,13 +56,17 @@ int check_all(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Checks mesh files: closed, manifold, oriented, self-intersections, nesting of components.", "check_mesh");
+  CLI::App app("Checks mesh files: closed, manifold, oriented, self-intersections, nesting of components.",
+               "check_mesh");
   app.set_version_flag("--version", "check_mesh " PST_VERSION);
   app.add_option("FILE", options.files, "Meshes: PLY, OFF, OBJ or STL")->required();
   app.add_option("--max-self-intersections", options.max_self_intersections,
                  "Share of self-intersecting triangles that is no defect")
       ->type_name("SHARE")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check([](const std::string& text) {
+        const double share = std::strtod(text.c_str(), nullptr);
+        return share >= 0.0 && share <= 1.0 ? "" : "expected a number from 0 to 1, not " + text;
+      })
       ->capture_default_str();
   app.add_flag("--json", options.json, "Print one JSON object per file and line");
   app.footer("Exit codes: 0 ok, 1 usage, 2 a file cannot be read, 3 a mesh has defects.");

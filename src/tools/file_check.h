@@ -12,8 +12,8 @@ struct FileCheck {
   std::string path;
   bool has_indices = true;  ///< False: the format has none, and vertices were joined by position before the check.
   MeshCheck mesh;
-  std::size_t merged_vertices = 0;   ///< That have the position of another one.
-  std::optional<MeshCheck> welded;   ///< With those joined; none if there are none.
+  std::size_t merged_vertices = 0;  ///< That have the position of another one.
+  std::optional<MeshCheck> welded;  ///< With those joined; none if there are none.
 };
 
 /// \throw InputError if the file cannot be read.

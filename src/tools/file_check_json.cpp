@@ -25,17 +25,21 @@ Json to_json(const MeshDefect& defect) {
 }
 
 Json to_json(const MeshComponent& component) {
-  return {{"first_vertex", component.first_vertex}, {"vertices", component.vertices},
-          {"triangles", component.triangles},       {"closed", component.is_closed},
-          {"manifold", component.is_manifold},      {"genus", component.genus},
-          {"volume", component.volume},             {"area", component.area},
+  return {{"first_vertex", component.first_vertex},
+          {"vertices", component.vertices},
+          {"triangles", component.triangles},
+          {"closed", component.is_closed},
+          {"manifold", component.is_manifold},
+          {"genus", component.genus},
+          {"volume", component.volume},
+          {"area", component.area},
           {"winding_around", component.winding_around}};
 }
 
 Json to_json(const MeshCheck& mesh) {
-  Json json = {{"vertices", mesh.vertices}, {"triangles", mesh.triangles}, {"genus", mesh.genus()},
-               {"volume", mesh.volume()},   {"area", mesh.area()},
-               {"self_intersecting_share", mesh.self_intersecting_share()}};
+  Json json = {{"vertices", mesh.vertices}, {"triangles", mesh.triangles},
+               {"genus", mesh.genus()},     {"volume", mesh.volume()},
+               {"area", mesh.area()},       {"self_intersecting_share", mesh.self_intersecting_share()}};
   json["defects"] = Json::object();
   for (const NamedMeshDefect& kind : list_defects(mesh)) json["defects"][kind.name] = to_json(*kind.defect);
   json["components"] = Json::array();

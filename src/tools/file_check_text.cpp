@@ -41,8 +41,8 @@ std::string defects_of(const MeshCheck& mesh, double max_self_intersecting_share
     text += fmt::format("  {} {}", kind.defect->count, kind.text);
     if (kind.defect == &mesh.self_intersecting_triangles) {
       const double share = mesh.self_intersecting_share();
-      text += fmt::format(", {:.4g} % of all{}", 100.0 * share,
-                          share <= max_self_intersecting_share ? ", tolerated" : "");
+      text +=
+          fmt::format(", {:.4g} % of all{}", 100.0 * share, share <= max_self_intersecting_share ? ", tolerated" : "");
     }
     text += ":\n";
     for (const MeshPlace& place : kind.defect->places) {
@@ -56,7 +56,8 @@ std::string defects_of(const MeshCheck& mesh, double max_self_intersecting_share
 }  // namespace
 
 std::string to_text(const FileCheck& check, double max_self_intersecting_share) {
-  std::string text = fmt::format("{}: {}\n", check.path, is_sound(check, max_self_intersecting_share) ? "ok" : "DEFECTS");
+  std::string text =
+      fmt::format("{}: {}\n", check.path, is_sound(check, max_self_intersecting_share) ? "ok" : "DEFECTS");
   if (check.mesh.triangles == 0) return text + "  it has no triangles\n";
   text += sizes_of(check.mesh);
   if (!check.has_indices) text += "  the format has no indices: vertices of the same position were joined\n";

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,8 @@ struct FrameReport {
     std::size_t refused = 0;    ///< Beyond a limit, but nothing could be done without harm.
   };
   Upkeep upkeep;
+  /// Share of the triangles that intersect others, in [0, 1]; none where the mesh was not checked.
+  std::optional<double> self_intersecting_triangles;
 
   /// What one stage took.
   struct StageTime {

@@ -11,10 +11,10 @@ namespace particle_surface_tracker {
 
 /// Where a defect is: a vertex, an edge (two vertices), a triangle, two triangles, or a component.
 struct MeshPlace {
-  std::uint32_t index = 0;         ///< Of the vertex, triangle or component; of an edge its lower vertex.
-  std::uint32_t other = 0;         ///< The edge's other vertex, or the other triangle; `index` where there is none.
-  Vec3f position{0, 0, 0};         ///< Of the vertex, or of the first vertex of triangle or component [m].
-  Vec3f other_position{0, 0, 0};   ///< The same of `other` [m].
+  std::uint32_t index = 0;        ///< Of the vertex, triangle or component; of an edge its lower vertex.
+  std::uint32_t other = 0;        ///< The edge's other vertex, or the other triangle; `index` where there is none.
+  Vec3f position{0, 0, 0};        ///< Of the vertex, or of the first vertex of triangle or component [m].
+  Vec3f other_position{0, 0, 0};  ///< The same of `other` [m].
 };
 
 /// How often a kind of defect occurs, and its first places, in an order that depends on nothing but the mesh.
@@ -118,6 +118,11 @@ struct NamedMeshDefect {
 /// All kinds of defects in a fixed order, also those that do not occur.
 std::vector<NamedMeshDefect> list_defects(const MeshDefects& defects);
 std::vector<NamedMeshDefect> list_defects(const MeshCheck& check);
+/// Those of the nesting of components.
+std::vector<NamedMeshDefect> list_nesting_defects(const MeshCheck& check);
+
+/// "3 edges are open (…), first between …; 1 vertices …": the kinds that occur, each with its first place.
+std::string describe(const std::vector<NamedMeshDefect>& kinds);
 
 /// "vertex 3 at (0, 1, 2)", "between vertex 3 at … and vertex 4 at …", "triangle 7 at …, with triangle 9 at …".
 std::string describe_place(const char* element, const MeshPlace& place);
