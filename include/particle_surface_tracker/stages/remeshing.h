@@ -27,14 +27,14 @@ struct RemeshingRequest {
 
 /// What re-meshing did to a mesh.
 struct RemeshingReport {
-  std::size_t flagged_cells = 0;     ///< As requested, each counted once.
-  std::size_t changed_nodes = 0;     ///< Nodes of the request with another sign than the mesh's.
-  std::size_t complex_cells = 0;     ///< With an edge that is crossed twice or more, or around a node that the mesh
-                                     ///< winds around neither 0 times nor once.
-  std::size_t tangled_cells = 0;     ///< Of these, the ones made anew: sheets overlap in them.
-  std::size_t deep_cells = 0;        ///< Made anew because no sign changes around the mesh in them.
-  std::size_t marked_by_growth = 0;  ///< Made anew so that the front is simple.
-  std::size_t remeshed_cells = 0;    ///< All cells that were made anew.
+  std::size_t flagged_cells = 0;       ///< As requested, each counted once.
+  std::size_t changed_nodes = 0;       ///< Nodes of the request with another sign than the mesh's.
+  std::size_t complex_cells = 0;       ///< With an edge that is crossed twice or more, or around a node that the mesh
+                                       ///< winds around neither 0 times nor once.
+  std::size_t tangled_cells = 0;       ///< Of these, the ones made anew: sheets overlap in them.
+  std::size_t deep_cells = 0;          ///< Made anew because no sign changes around the mesh in them.
+  std::size_t marked_by_growth = 0;    ///< Made anew so that the front is simple.
+  std::size_t remeshed_cells = 0;      ///< All cells that were made anew.
   std::size_t removed_components = 0;  ///< Too small to cross a lattice edge, and not what φ says there.
   std::size_t kept_components = 0;     ///< Too small to cross a lattice edge, and as φ says.
   std::size_t removed_triangles = 0;

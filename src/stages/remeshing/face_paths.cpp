@@ -34,8 +34,7 @@ bool link(std::vector<Step>& steps) {
     if (steps[n].from == steps[n + 1].from) return false;
   }
   for (Step& step : steps) {
-    const auto next =
-        std::lower_bound(steps.begin(), steps.end(), Step{step.to, step.to, kNone, false}, starts_before);
+    const auto next = std::lower_bound(steps.begin(), steps.end(), Step{step.to, step.to, kNone, false}, starts_before);
     const bool found = next != steps.end() && next->from == step.to;
     if (found == is_on_edge(step.to)) return false;
     if (!found) continue;

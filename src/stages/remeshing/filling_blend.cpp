@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include <openvdb/math/Proximity.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "patch_places.h"
 
@@ -26,12 +30,12 @@ class ClosestBlend {
   VertexBlend find(const Vec3d& position) {
     best_ = std::numeric_limits<double>::infinity();
     blend_.clear();
-    const double h = lattice_.h();
-    const Coord center(static_cast<int>(std::floor(position.x() / h)), static_cast<int>(std::floor(position.y() / h)),
-                       static_cast<int>(std::floor(position.z() / h)));
+    const Vec3d in_cells = position / lattice_.h();
+    const Coord center(static_cast<int>(std::floor(in_cells.x())), static_cast<int>(std::floor(in_cells.y())),
+                       static_cast<int>(std::floor(in_cells.z())));
     for (int ring = 0; ring <= kFarthestRing; ++ring) {
       // What lies in this ring is farther than the rings inside it are wide.
-      const double nearest = std::max(ring - 1, 0) * h;
+      const double nearest = std::max(ring - 1, 0) * lattice_.h();
       if (best_ <= nearest * nearest) break;
       look_at_ring(center, ring, position);
     }
@@ -44,12 +48,21 @@ class ClosestBlend {
       for (int y = -ring; y <= ring; ++y) {
         const bool on_side = std::abs(x) == ring || std::abs(y) == ring;
         for (int z = -ring; z <= ring; z += on_side || ring == 0 ? 1 : 2 * ring) {
-          for (const std::uint32_t triangle : lattice_.triangles_in_cell(center.offsetBy(x, y, z))) {
-            look_at_triangle(triangle, position);
-          }
+          look_at_cell(center.offsetBy(x, y, z), position);
         }
       }
     }
+  }
+
+  void look_at_cell(const Coord& cell, const Vec3d& position) {
+    double squared = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double outside =
+          std::max({lattice_.plane(cell[axis]) - position[axis], position[axis] - lattice_.plane(cell[axis] + 1), 0.0});
+      squared += outside * outside;
+    }
+    if (squared >= best_) return;
+    for (const std::uint32_t triangle : lattice_.triangles_in_cell(cell)) look_at_triangle(triangle, position);
   }
 
   void look_at_triangle(std::uint32_t triangle, const Vec3d& position) {
@@ -72,10 +85,14 @@ class ClosestBlend {
 }  // namespace
 
 void blend_filling(const MeshLattice& lattice, Patch& patch) {
-  ClosestBlend closest(lattice);
-  for (PatchVertex& vertex : patch.vertices) {
-    if (vertex.kind != PatchVertex::Kind::kFront) vertex.blend = closest.find(vertex.position);
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patch.vertices.size(), 256),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      ClosestBlend closest(lattice);
+                      for (std::size_t v = range.begin(); v != range.end(); ++v) {
+                        PatchVertex& vertex = patch.vertices[v];
+                        if (vertex.kind != PatchVertex::Kind::kFront) vertex.blend = closest.find(vertex.position);
+                      }
+                    });
 }
 
 }  // namespace particle_surface_tracker::remeshing

@@ -32,8 +32,8 @@ class FrontPlacer {
     for (std::size_t begin = 0, end = 0; begin < on_faces.size(); begin = end) {
       const LatticePoint& first = on_faces[begin]->point;
       while (end < on_faces.size() && on_faces[end]->point.a == first.a && on_faces[end]->point.b == first.b) ++end;
-      place_on_mesh_edge({on_faces.begin() + static_cast<std::ptrdiff_t>(begin),
-                          on_faces.begin() + static_cast<std::ptrdiff_t>(end)});
+      place_on_mesh_edge(
+          {on_faces.begin() + static_cast<std::ptrdiff_t>(begin), on_faces.begin() + static_cast<std::ptrdiff_t>(end)});
     }
   }
 
@@ -81,8 +81,7 @@ class FrontPlacer {
       place = weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
       // Three lattice edges that end in one node can be crossed next to it: in the triangle's plane, the points move
       // away from it.
-      const double past_node =
-          std::max(kFrontGap - point.place, 0.0) - std::max(kFrontGap - (1.0 - point.place), 0.0);
+      const double past_node = std::max(kFrontGap - point.place, 0.0) - std::max(kFrontGap - (1.0 - point.place), 0.0);
       const Vec3d along = Vec3d::Unit(point.axis) - unit[point.axis] * unit;
       weights = clamped_weights(corners, unit, doubled_area, place + past_node * h * along);
     }
@@ -111,8 +110,8 @@ class FrontPlacer {
     return gaps;
   }
 
-  /// Weights of a place that is moved away from the sides where it is closer than two gaps, to between one and two: what
-  /// is apart stays apart.
+  /// Weights of a place that is moved away from the sides where it is closer than two gaps, to between one and two:
+  /// what is apart stays apart.
   std::array<double, 3> spread_weights(const std::array<Vec3d, 3>& corners, const Vec3d& unit, double doubled_area,
                                        const Vec3d& place) const {
     std::array<double, 3> weights = weights_at(corners, unit, doubled_area, place);

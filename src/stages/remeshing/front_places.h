@@ -6,7 +6,7 @@ namespace particle_surface_tracker::remeshing {
 
 /// Distance that front vertices keep from each other and from the ends of their mesh edge, triangle or lattice edge
 /// [cells]. Small: what a vertex moves by bends the line along which the mesh was cut.
-constexpr double kFrontGap = 0.005;
+constexpr double kFrontGap = 0.002;
 
 /// Distance that vertices on inner lattice edges keep from the ends of the edge [cells].
 constexpr double kInnerGap = 0.02;

@@ -8,8 +8,8 @@ namespace particle_surface_tracker::remeshing {
 
 namespace {
 
-/// Distances are measured up to this far; beyond it only the sign matters [cells].
-constexpr double kReach = 2.0;
+/// Distances are measured up to the diagonal of a cell; beyond it only the sign matters [cells].
+constexpr double kReach = 1.75;
 
 }  // namespace
 

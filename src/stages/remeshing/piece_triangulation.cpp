@@ -195,7 +195,8 @@ class PieceTriangulator {
     return true;
   }
 
-  /// A vertex that occurs twice in the polygon can be joined to another one twice. Such sides are forbidden from now on.
+  /// A vertex that occurs twice in the polygon can be joined to another one twice. Such sides are forbidden from now
+  /// on.
   /// \return true if there are none.
   bool forbid_doubled_sides(std::size_t first) {
     std::vector<Pair> sides;

@@ -12,9 +12,9 @@ namespace particle_surface_tracker::remeshing {
 /// A flat piece of a triangle to be triangulated: loops with the piece on the left, the first one around it or, with
 /// holes in it, in any order.
 struct FlatPiece {
-  std::vector<std::vector<std::uint32_t>> loops;     ///< Of indices into `places`; an index may occur more than once.
-  const std::vector<Eigen::Vector2d>* places;        ///< In the plane of the triangle [any unit].
-  const std::vector<std::uint8_t>* edges;            ///< Bit k: the vertex lies on edge k of the triangle.
+  std::vector<std::vector<std::uint32_t>> loops;  ///< Of indices into `places`; an index may occur more than once.
+  const std::vector<Eigen::Vector2d>* places;     ///< In the plane of the triangle [any unit].
+  const std::vector<std::uint8_t>* edges;         ///< Bit k: the vertex lies on edge k of the triangle.
   const std::vector<std::pair<std::uint32_t, std::uint32_t>>* apart;  ///< Pairs (lower, higher) that must not be
                                                                       ///< joined inside the piece; sorted.
 };

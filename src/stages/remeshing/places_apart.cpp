@@ -27,7 +27,8 @@ bool comes_before(const RoundedPlace& p, const RoundedPlace& q) {
 void nudge(Vec3d& position, int number, double h) {
   const int axis = number % 3;
   const double resolution = std::abs(position[axis]) * std::numeric_limits<float>::epsilon();
-  position[axis] += (number % 2 == 0 ? 1.0 : -1.0) * (1 + number / 3) * std::max(kNudge * h, 2.0 * resolution);
+  const int steps = (number % 2 == 0 ? 1 : -1) * (1 + number / 3);
+  position[axis] += steps * std::max(kNudge * h, 2.0 * resolution);
 }
 
 /// The vertices of the patch's triangles, each once.

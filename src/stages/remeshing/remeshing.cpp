@@ -214,10 +214,10 @@ RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const Rem
                                 request.nodes.size(), request.gamma.size()));
   }
   if (lattice.positions().size() != mesh.vertex_count() || lattice.triangles().size() != mesh.triangle_count()) {
-    throw MeshError(fmt::format("re-meshing was given the lattice of a mesh of {} vertices and {} triangles for one of "
-                                "{} and {}; make the lattice anew after every change of the mesh",
-                                lattice.positions().size(), lattice.triangles().size(), mesh.vertex_count(),
-                                mesh.triangle_count()));
+    throw MeshError(fmt::format(
+        "re-meshing was given the lattice of a mesh of {} vertices and {} triangles for one of "
+        "{} and {}; make the lattice anew after every change of the mesh",
+        lattice.positions().size(), lattice.triangles().size(), mesh.vertex_count(), mesh.triangle_count()));
   }
   return Remesher(mesh, lattice, request).run();
 }

@@ -70,8 +70,7 @@ SmallComponents find_small_components(TriangleCuts& cuts, const IsLiquid& is_liq
   SmallComponents result;
   const std::vector<Triangle>& triangles = cuts.lattice().triangles();
   std::size_t count = 0;
-  const std::vector<std::uint32_t> component =
-      vertex_components(cuts.lattice().positions().size(), triangles, count);
+  const std::vector<std::uint32_t> component = vertex_components(cuts.lattice().positions().size(), triangles, count);
   std::vector<char> crosses(count, 0);
   for (const EdgeCrossing& crossing : cuts.lattice().crossings()) {
     crosses[component[triangles[crossing.triangle][0]]] = 1;

@@ -123,8 +123,7 @@ bool OutlineTracer::follow_outlines(const TriangleCut& cut, TriangleOutline& out
     // A point on a face ends one segment; where both its sides are kept, the triangle's edge just goes on.
     return std::any_of(leaving_[vertex].begin(), leaving_[vertex].end(), [&](std::uint32_t e) {
       const HalfEdge& half_edge = half_edges_[e];
-      return half_edge.twin != kNone &&
-             is_marked_[half_edge.cell] + is_marked_[half_edges_[half_edge.twin].cell] == 1;
+      return half_edge.twin != kNone && is_marked_[half_edge.cell] + is_marked_[half_edges_[half_edge.twin].cell] == 1;
     });
   };
   std::vector<char> done(half_edges_.size(), 0);

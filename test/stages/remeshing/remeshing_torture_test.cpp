@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -59,10 +61,27 @@ std::size_t count_coincident(const TriangleMesh& mesh, std::size_t new_triangles
   return count;
 }
 
+/// Nodes around the new mesh that are on another side than Γ says, and all nodes that were looked at.
+std::pair<std::size_t, std::size_t> count_wrong_nodes(const test::RemeshingCase& the_case, const TriangleMesh& mesh) {
+  const MeshLattice before(the_case.mesh.positions(), the_case.mesh.triangles(), the_case.h);
+  const MeshLattice after(mesh.positions(), mesh.triangles(), the_case.h);
+  const std::vector<openvdb::Coord>& matched = the_case.request.nodes;
+  std::size_t wrong = 0;
+  const std::vector<openvdb::Coord> nodes = after.cells();
+  for (const openvdb::Coord& node : nodes) {
+    const auto found = std::lower_bound(matched.begin(), matched.end(), node);
+    const bool is_matched = found != matched.end() && *found == node;
+    const bool inside = is_matched ? the_case.request.gamma[static_cast<std::size_t>(found - matched.begin())] < 0.0f
+                                   : before.winding_number(node) >= 1;
+    if (inside != (after.winding_number(node) >= 1)) ++wrong;
+  }
+  return {wrong, nodes.size()};
+}
+
 TEST(RemeshingTorture, AlwaysGivesASoundMesh) {
   const std::uint32_t first = number_from_environment("PST_FIRST_SEED", 0);
   const std::uint32_t cases = number_from_environment("PST_CASES", 1000);
-  std::size_t changed = 0, retries = 0, fallbacks = 0;
+  std::size_t changed = 0, retries = 0, fallbacks = 0, wrong_nodes = 0, nodes = 0;
   for (std::uint32_t seed = first; seed < first + cases; ++seed) {
     const test::RemeshingCase the_case = test::make_remeshing_case(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + the_case.description);
@@ -70,17 +89,23 @@ TEST(RemeshingTorture, AlwaysGivesASoundMesh) {
     const RemeshingReport report = remesh_case(the_case, mesh);
     EXPECT_FALSE(report.gave_up);
     EXPECT_TRUE(test::find_surface_defects(mesh.vertex_count(), mesh.triangles()).none());
-    EXPECT_TRUE(std::all_of(mesh.positions().begin(), mesh.positions().end(),
-                            [](const Vec3f& p) { return p.allFinite(); }));
+    EXPECT_TRUE(
+        std::all_of(mesh.positions().begin(), mesh.positions().end(), [](const Vec3f& p) { return p.allFinite(); }));
     EXPECT_EQ(count_coincident(mesh, report.new_triangles, the_case.mesh.vertex_count()), 0u);
     expect_rest_untouched(the_case.mesh, mesh, report);
     changed += report.changed() ? 1 : 0;
     retries += report.retries;
     fallbacks += report.fallbacks;
-    if (report.retries > 0) std::printf("seed %u: %zu retries, %zu fallbacks: %s\n", seed, report.retries, report.fallbacks, the_case.description.c_str());
+    const auto [wrong, looked_at] = count_wrong_nodes(the_case, mesh);
+    wrong_nodes += wrong;
+    nodes += looked_at;
     if (HasFailure()) break;
   }
-  std::printf("%zu changed, %zu retries, %zu fallbacks\n", changed, retries, fallbacks);
+  std::printf("%zu changed, %zu retries, %zu fallbacks, %zu of %zu nodes on the wrong side\n", changed, retries,
+              fallbacks, wrong_nodes, nodes);
+  EXPECT_EQ(fallbacks, 0u);
+  // Smoothing moves the surface across a node that it passes closely now and then.
+  EXPECT_LT(wrong_nodes, nodes / 50);
   if (!HasFailure()) {
     EXPECT_GT(changed, cases / 2);
   }
