@@ -72,7 +72,7 @@ struct Parameters {
   DetectionMethod detection = DetectionMethod::kTauAndSigns;
   double matching_reach = 4.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
   MatchingFrames matching_frames = MatchingFrames::kFlagged;
-  MatchingSolver matching_solver = MatchingSolver::kPcg;
+  MatchingSolver matching_solver = MatchingSolver::kSor;
   double beta = 0.01;  // β: the SOR solver ends when no step is longer [Δx_Γ].
 
   // Mesh upkeep (Sec. 8): limits that must all be passed, against neighbours and against the mesh at its birth.

@@ -5,11 +5,11 @@
 
 #include "detail_cover.h"
 #include "field_at_nodes.h"
-#include "largest_delta.h"
 #include "line_signs.h"
 #include "matching_region.h"
 #include "node_numbers.h"
 #include "nodes_at_surfaces.h"
+#include "triangle_extent.h"
 
 namespace particle_surface_tracker {
 
@@ -20,6 +20,10 @@ const double kCellDiagonal = std::sqrt(3.0);
 
 /// An isosurface that is farther than this from a node of the mesh, and than its δ, does not hold it [cells].
 constexpr double kCell = 1.0;
+
+/// Triangles with a longer edge are large [cells]. The isosurface is at the distance δ of every vertex that is not
+/// flagged, so smaller triangles have nowhere to hide much.
+constexpr double kLargeEdge = 2.0;
 
 /// The nodes that are on the other side for the mesh than for φ.
 NodeMasks misplaced_nodes(const NodesAtIsosurface& nodes, const LineSigns& mesh) {
@@ -48,6 +52,16 @@ void remove_nodes(NodeMasks& set, const NodeMasks& removed) {
   }
 }
 
+/// Takes the nodes out that are on the same side for the mesh and for φ, whose lattices are one.
+void remove_agreeing(NodeMasks& set, const LineSigns& mesh, const LineSigns& field) {
+  for (const NodeMasks::Leaf& leaf : set.leaves()) {
+    const LeafWords in_mesh = mesh.leaf(leaf.origin).inside;
+    const LeafWords in_field = field.leaf(leaf.origin).inside;
+    LeafWords& words = set.words_at(leaf.origin);
+    for (int x = 0; x < 8; ++x) words[x] &= in_mesh[x] ^ in_field[x];
+  }
+}
+
 bool is_empty(const NodeMasks& set) {
   return std::all_of(set.leaves().begin(), set.leaves().end(),
                      [](const NodeMasks::Leaf& leaf) { return is_zero(leaf.words); });
@@ -63,25 +77,22 @@ std::vector<openvdb::Coord> disagreement_at_isosurface(const MeshLattice& lattic
   return nodes_beyond_detail(suspects, lattice, delta, kCellDiagonal * lattice.h());
 }
 
-/// Nodes next to the mesh that have no vertex in the cells around them, and the largest |δ| of the triangles there.
-///
-/// A vertex that is not flagged is at the distance δ from the isosurface, so nodes close to one are explained. What is
-/// left are nodes at large triangles.
+/// Nodes next to large triangles that have no vertex in the cells around them and may be on the wrong side, and the
+/// largest |δ| of the triangles there.
 struct NodesAwayFromVertices {
   std::vector<openvdb::Coord> nodes;
   std::vector<double> detail;  ///< [m]
 };
 
-NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const std::vector<float>& delta) {
+NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const std::vector<float>& delta,
+                                               const ImplicitSurface& surface, const LineSigns& mesh) {
+  const double longest = kLargeEdge * lattice.h();
   std::vector<char> is_large(lattice.triangles().size(), 0);
   bool any = false;
   for (std::size_t t = 0; t < is_large.size(); ++t) {
-    const Triangle& triangle = lattice.triangles()[t];
-    for (int i = 0; i < 3; ++i) {
-      const Vec3f edge = lattice.positions()[triangle[(i + 1) % 3]] - lattice.positions()[triangle[i]];
-      if (edge.cast<double>().squaredNorm() > lattice.h() * lattice.h()) is_large[t] = 1;
-    }
-    any = any || is_large[t] != 0;
+    if (longest_edge(lattice.positions(), lattice.triangles()[t]) <= longest) continue;
+    is_large[t] = 1;
+    any = true;
   }
   if (!any) return {};
   NodeMasks near_vertices;
@@ -99,6 +110,7 @@ NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const
   };
   for_each_end([&](const openvdb::Coord& node, std::uint32_t) { set.insert(node); });
   remove_nodes(set, near_vertices);
+  if (lattice.h() == surface.dx) remove_agreeing(set, mesh, make_field_signs(surface));
   const NodeNumbers numbers(set);
   NodesAwayFromVertices result{numbers.nodes(), std::vector<double>(numbers.nodes().size(), 0.0)};
   for_each_end([&](const openvdb::Coord& node, std::uint32_t triangle) {
@@ -111,8 +123,8 @@ NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const
 
 /// Nodes at the mesh that are on the wrong side of the isosurface, and too far from it.
 std::vector<openvdb::Coord> disagreement_at_mesh(const MeshLattice& lattice, const std::vector<float>& delta,
-                                                 const ImplicitSurface& surface) {
-  const NodesAwayFromVertices suspects = nodes_away_from_vertices(lattice, delta);
+                                                 const ImplicitSurface& surface, const LineSigns& mesh) {
+  const NodesAwayFromVertices suspects = nodes_away_from_vertices(lattice, delta, surface, mesh);
   if (suspects.nodes.empty()) return {};
   const double slack = kCell * lattice.h();
   const double reach = *std::max_element(suspects.detail.begin(), suspects.detail.end()) + 2.0 * slack;
@@ -139,8 +151,9 @@ Disagreement find_disagreement(const MeshLattice& lattice, const std::vector<flo
                                const ImplicitSurface& surface, const Parameters& parameters) {
   if (parameters.detection == DetectionMethod::kTau) return {};
   Disagreement result;
-  result.nodes = disagreement_at_isosurface(lattice, delta, surface, make_mesh_signs(lattice));
-  const std::vector<openvdb::Coord> at_mesh = disagreement_at_mesh(lattice, delta, surface);
+  const LineSigns mesh = make_mesh_signs(lattice);
+  result.nodes = disagreement_at_isosurface(lattice, delta, surface, mesh);
+  const std::vector<openvdb::Coord> at_mesh = disagreement_at_mesh(lattice, delta, surface, mesh);
   result.nodes.insert(result.nodes.end(), at_mesh.begin(), at_mesh.end());
   std::sort(result.nodes.begin(), result.nodes.end());
   result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());

@@ -88,9 +88,9 @@ class TopologyMatching {
     for (std::size_t n = 0; n < problem.fixed.size(); ++n) {
       const double psi = static_cast<double>(gamma[n]) - static_cast<double>(phi[n]);
       problem.poisson.values[problem.poisson.size() + n] = psi;
-      largest = std::max({largest, std::abs(psi), std::abs(static_cast<double>(phi[n]))});
+      // Where φ is cut off at a fixed node, it must be cut off at the same distance around it.
+      largest = std::max(largest, std::abs(phi[n]) < static_cast<float>(farthest) ? std::abs(psi) : farthest);
     }
-    // Where φ is cut off at the fixed nodes, it must be cut off at the same distance around them.
     return std::min(largest + diagonal_, farthest);
   }
 

@@ -94,8 +94,14 @@ void study_frame(std::size_t frame, const Tracker& tracker, const Options& optio
   if (cells.size() < options.smallest || options.reaches.empty()) return;
   const ImplicitSurface& surface = *tracker.implicit_surface();
   parameters.matching_reach = 0.0;
+  parameters.matching_solver = MatchingSolver::kPcg;
   const Run whole = run(lattice, surface, cells, parameters);
-  print("whole", whole, whole);
+  print("whole, pcg", whole, whole);
+  parameters.matching_solver = MatchingSolver::kSor;
+  const Run whole_sor = run(lattice, surface, cells, parameters);
+  print("whole, sor", whole_sor, whole);
+  fmt::print("      sor differs by up to {:.1f} beta\n",
+             largest_difference(whole_sor.matched, whole.matched) / (parameters.beta * h));
   for (const double reach : options.reaches) {
     parameters.matching_reach = reach;
     parameters.matching_solver = MatchingSolver::kPcg;

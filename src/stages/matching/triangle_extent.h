@@ -15,4 +15,14 @@ inline double largest_delta(const Triangle& triangle, const std::vector<float>& 
   return largest;
 }
 
+/// Length of the longest edge of a triangle [m].
+inline double longest_edge(const std::vector<Vec3f>& positions, const Triangle& triangle) {
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3f edge = positions[triangle[(i + 1) % 3]] - positions[triangle[i]];
+    largest = std::max(largest, edge.cast<double>().squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
 }  // namespace particle_surface_tracker
