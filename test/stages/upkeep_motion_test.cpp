@@ -56,7 +56,8 @@ Passage carry(TriangleMesh& mesh, double h, int steps, Step&& step) {
   }
   passage.crossings = test::count_self_intersecting_triangles(mesh.positions(), mesh.triangles());
   std::printf(
-      "[ MEASURED ] %zu triangles; edges %.2f to %.2f h, angles from %.2f deg, %.3f %% below 10 deg, folds to %.0f deg; "
+      "[ MEASURED ] %zu triangles; edges %.2f to %.2f h, angles from %.2f deg, %.3f %% below 10 deg, folds to %.0f "
+      "deg; "
       "%zu splits, %zu collapses, %zu of folds, %zu of slivers, %zu flips, %zu refused, %zu crossing\n",
       mesh.triangle_count(), passage.worst.shortest_edge / h, passage.worst.longest_edge / h,
       passage.worst.smallest_angle, 100.0 * passage.worst.share_below_10_degrees, passage.worst.largest_fold,
@@ -96,9 +97,7 @@ TEST(UpkeepMotion, ATorusTwists) {
   TriangleMesh mesh = test::make_torus({0.01, 0.02, 0.03}, 1.0, 0.4, 100, 40);
   const double volume = test::volume_of(mesh);
   const auto twist = [](double angle) {
-    return [angle](int, const Vec3d& x) {
-      return Vec3d(Eigen::AngleAxisd(angle * x.z(), Vec3d::UnitZ()) * x);
-    };
+    return [angle](int, const Vec3d& x) { return Vec3d(Eigen::AngleAxisd(angle * x.z(), Vec3d::UnitZ()) * x); };
   };
   carry(mesh, h, 40, twist(0.1));
   std::printf("volume %.5f\n", test::volume_of(mesh) / volume);

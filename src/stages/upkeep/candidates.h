@@ -35,14 +35,19 @@ struct SurfaceView {
   std::uint32_t longest_edge(std::uint32_t triangle) const;
 };
 
+/// Which half-edges of a triangle stand for their edges.
+enum class Sides : std::uint8_t { kBoth, kLowerHalfEdge };
+
 /// Calls visit(ailment, urgency, half_edge) for everything that ails a triangle and its edges.
 template <typename Visit>
-void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, const Tolerances& tolerances, Visit&& visit) {
+void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, Sides sides, const Tolerances& tolerances,
+                      Visit&& visit) {
   const Triangle& vertices = surface.triangles[triangle];
   const Corners corners = surface.corners(triangle);
   const Vec3d normal = area_normal(corners);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t h = 3 * triangle + k;
+    if (sides == Sides::kLowerHalfEdge && surface.twins[h] < h) continue;
     const std::uint32_t a = vertices[k], b = vertices[(k + 1) % 3];
     const double squared = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
     if (tolerances.is_long(a, b, squared)) visit(Ailment::kLongEdge, squared, h);

@@ -55,7 +55,8 @@ bool find_suspects(const TriangleMesh& mesh, const Tolerances& tolerances, Upkee
   for_each_block(mesh, [&](std::uint32_t block, std::uint32_t first, std::uint32_t last) {
     bool is_suspect = false;
     for (std::uint32_t t = first; t < last && !is_suspect; ++t) {
-      for_each_ailment(surface, t, tolerances, [&](Ailment, double, std::uint32_t) { is_suspect = true; });
+      for_each_ailment(surface, t, Sides::kLowerHalfEdge, tolerances,
+                       [&](Ailment, double, std::uint32_t) { is_suspect = true; });
     }
     memory.is_suspect[block] = is_suspect ? 1 : 0;
   });
@@ -105,37 +106,29 @@ class Upkeep {
   void enqueue_suspects() {
     for (std::uint32_t t = 0; t < surface_.triangle_slots(); ++t) {
       if (is_suspect_[t / kTrianglesPerBlock] == 0) continue;
-      for_each_ailment(view(), t, tolerances_, [&](Ailment ailment, double urgency, std::uint32_t h) {
-        if (ailment == Ailment::kSliver || is_first_of_edge(h)) queue_.push(candidate(ailment, urgency, h));
-      });
+      enqueue_triangle(t, Sides::kLowerHalfEdge);
     }
   }
 
-  /// Whether a scan in the order of the triangles enters an edge from this side: its neighbour's block may not be
-  /// scanned.
-  bool is_first_of_edge(std::uint32_t half_edge) const {
-    const std::uint32_t twin = surface_.twin(half_edge);
-    return half_edge < twin || is_suspect_[twin / 3 / kTrianglesPerBlock] == 0;
-  }
-
-  void enqueue_triangle(std::uint32_t triangle) {
-    for_each_ailment(view(), triangle, tolerances_, [&](Ailment ailment, double urgency, std::uint32_t h) {
+  void enqueue_triangle(std::uint32_t triangle, Sides sides) {
+    for_each_ailment(view(), triangle, sides, tolerances_, [&](Ailment ailment, double urgency, std::uint32_t h) {
       queue_.push(candidate(ailment, urgency, h));
     });
   }
 
   void enqueue_around(std::uint32_t vertex) {
-    surface_.for_each_outgoing(vertex, [&](std::uint32_t h) { enqueue_triangle(h / 3); });
+    surface_.for_each_outgoing(vertex, [&](std::uint32_t h) { enqueue_triangle(h / 3, Sides::kBoth); });
   }
 
   /// Whether a candidate is still what it was when it was queued.
   bool is_current(const Candidate& queued) const {
     if (!surface_.is_alive(queued.half_edge / 3)) return false;
     bool found = false;
-    for_each_ailment(view(), queued.half_edge / 3, tolerances_, [&](Ailment ailment, double urgency, std::uint32_t h) {
-      const Candidate now = candidate(ailment, urgency, h);
-      found = found || (!(now < queued) && !(queued < now));
-    });
+    for_each_ailment(view(), queued.half_edge / 3, Sides::kBoth, tolerances_,
+                     [&](Ailment ailment, double urgency, std::uint32_t h) {
+                       const Candidate now = candidate(ailment, urgency, h);
+                       found = found || (!(now < queued) && !(queued < now));
+                     });
     return found;
   }
 
@@ -187,8 +180,8 @@ class Upkeep {
     const std::uint32_t twin = surface_.twin(half_edge);
     if (!operations_.flip(half_edge)) return false;
     ++report_.flips;
-    enqueue_triangle(half_edge / 3);
-    enqueue_triangle(twin / 3);
+    enqueue_triangle(half_edge / 3, Sides::kBoth);
+    enqueue_triangle(twin / 3, Sides::kBoth);
     return true;
   }
 
