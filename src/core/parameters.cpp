@@ -17,7 +17,7 @@ namespace {
 
 using Field =
     std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*, ProjectionMethod Parameters::*,
-                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*>;
+                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*, TopologyMode Parameters::*>;
 
 struct Entry {
   ParameterInfo info;
@@ -96,6 +96,8 @@ std::vector<Entry> make_entries() {
       integer(&P::projection_max_steps, "projection_max_steps", 1, 100000, "Most steps of one projection."),
       real(&P::tau, "tau", "tau", "r", 1e-3, 100.0, false,
            "A projection that moves a vertex farther than this is taken for a change of topology."),
+      choice(&P::topology, "topology", {"keep", "match"},
+             "Whether the mesh splits and merges as the particles do, or keeps its connectivity."),
       real(&P::dx_gamma, "dx_gamma", "dx_Gamma", "r", 0.1, 4.0, true,
            "Cell size of the voxelisation Gamma of the mesh, in which changes of topology are flagged."),
       choice(&P::detection, "detection", {"tau", "tau_and_signs"},

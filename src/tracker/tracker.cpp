@@ -209,9 +209,12 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     state_->advect_vertices(*next, frame, report, timer);
     next->surface = make_implicit_surface(frame, state_->parameters, timer);
     state_->project_vertices(*next, timer);
-    const double new_delta = update_topology(next->mesh, *next->surface, next->detection, state_->parameters,
-                                             state_->upkeep_memory, report, timer);
-    next->band = std::max(next->band, new_delta);
+    report.flagged_cells = next->detection.flagged_cells.size();
+    if (state_->parameters.topology == TopologyMode::kMatch) {
+      const double new_delta = update_topology(next->mesh, *next->surface, next->detection, state_->parameters,
+                                               state_->upkeep_memory, report, timer);
+      next->band = std::max(next->band, new_delta);
+    }
     decay_delta(next->mesh, 1e-9 * static_cast<double>(frame.stamp_ns - next->particles.stamp_ns), state_->parameters);
     next->particles = frame;
     next->particles_frame = frame_index;

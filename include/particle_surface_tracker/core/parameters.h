@@ -35,6 +35,12 @@ enum class MatchingFrames {
   kEvery     ///< Everywhere in every frame.
 };
 
+/// Whether the mesh follows the topology of the particles (Secs. 6 to 8).
+enum class TopologyMode {
+  kKeep,  ///< Its connectivity never changes: what would split or merge is put back and reported (Sec. 5.3).
+  kMatch  ///< It splits and merges, and its triangles are kept in shape.
+};
+
 /// Everything a user can set. Lengths are multiples of the particle spacing r unless a field says otherwise; the symbol
 /// of the paper stands first. Names, units, ranges and texts for users are in parameter_table().
 struct Parameters {
@@ -68,6 +74,7 @@ struct Parameters {
   double tau = 0.5;                     // τ: a projection that moves a vertex farther is a topological change [r].
 
   // Voxelisation Γ of the mesh and topology matching (Secs. 5.3, 6).
+  TopologyMode topology = TopologyMode::kKeep;
   double dx_gamma = 0.5;  // Δx_Γ: cell size of Γ [r].
   DetectionMethod detection = DetectionMethod::kTauAndSigns;
   double matching_reach = 4.0;  // Γ may change this far from what is flagged; 0: anywhere [r].

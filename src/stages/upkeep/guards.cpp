@@ -14,7 +14,7 @@ double six_volumes(const Corners& corners, const Vec3d& origin) {
   return (corners[0] - origin).dot((corners[1] - origin).cross(corners[2] - origin));
 }
 
-double smallest_replaced_sine(const EditableSurface& surface, const Patch& patch) {
+double smallest_replaced_sine(const EditableSurface& surface, const PlannedPatch& patch) {
   double smallest = 1.0;
   for (const std::uint32_t t : patch.replaced) {
     smallest = std::min(smallest, sine_of_smallest_angle(surface.corners(t)));
@@ -22,7 +22,7 @@ double smallest_replaced_sine(const EditableSurface& surface, const Patch& patch
   return smallest;
 }
 
-double largest_replaced_fold(const EditableSurface& surface, const Patch& patch) {
+double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch& patch) {
   double largest = 0.0;
   for (const std::uint32_t t : patch.replaced) {
     const Vec3d normal = area_normal(surface.corners(t));
@@ -34,7 +34,7 @@ double largest_replaced_fold(const EditableSurface& surface, const Patch& patch)
 }
 
 /// The normal beyond edge k of a triangle of the patch: of another triangle of the patch, or of one around it.
-Vec3d normal_beyond(const EditableSurface& surface, const Patch& patch, const PatchTriangle& triangle, std::size_t k) {
+Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle, std::size_t k) {
   const std::uint32_t from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3];
   for (const PatchTriangle& other : patch.triangles) {
     for (std::size_t m = 0; m < 3; ++m) {
@@ -57,7 +57,7 @@ bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edg
   return common == 2;
 }
 
-bool has_no_duplicate_triangle(const Patch& patch) {
+bool has_no_duplicate_triangle(const PlannedPatch& patch) {
   for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
     for (std::size_t j = i + 1; j < patch.triangles.size(); ++j) {
       const Triangle& a = patch.triangles[i].vertices;
@@ -68,14 +68,14 @@ bool has_no_duplicate_triangle(const Patch& patch) {
   return true;
 }
 
-bool has_no_degenerate_triangle(const Patch& patch) {
+bool has_no_degenerate_triangle(const PlannedPatch& patch) {
   return std::all_of(patch.triangles.begin(), patch.triangles.end(), [](const PatchTriangle& triangle) {
     const Corners& c = triangle.corners;
     return c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && area_normal(c).squaredNorm() > 0.0;
   });
 }
 
-bool has_no_long_edge(const Patch& patch, const Tolerances& tolerances) {
+bool has_no_long_edge(const PlannedPatch& patch, const Tolerances& tolerances) {
   for (const PatchTriangle& triangle : patch.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
@@ -86,7 +86,7 @@ bool has_no_long_edge(const Patch& patch, const Tolerances& tolerances) {
   return true;
 }
 
-bool keeps_volume(const EditableSurface& surface, const Patch& patch, double limit) {
+bool keeps_volume(const EditableSurface& surface, const PlannedPatch& patch, double limit) {
   const Vec3d origin = surface.corners(patch.replaced.front())[0];
   double change = 0.0, double_area = 0.0;
   for (const PatchTriangle& triangle : patch.triangles) change += six_volumes(triangle.corners, origin);
@@ -98,13 +98,13 @@ bool keeps_volume(const EditableSurface& surface, const Patch& patch, double lim
   return std::abs(change) / 6.0 <= limit * double_area / 2.0;
 }
 
-bool keeps_normals(const Patch& patch) {
+bool keeps_normals(const PlannedPatch& patch) {
   return std::all_of(patch.triangles.begin(), patch.triangles.end(), [](const PatchTriangle& triangle) {
     return triangle.old_normal.squaredNorm() == 0.0 || area_normal(triangle.corners).dot(triangle.old_normal) > 0.0;
   });
 }
 
-bool keeps_angles(const EditableSurface& surface, const Patch& patch, const Tolerances& tolerances) {
+bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, const Tolerances& tolerances) {
   const double before = smallest_replaced_sine(surface, patch);
   return std::all_of(patch.triangles.begin(), patch.triangles.end(), [&](const PatchTriangle& triangle) {
     const double sine = sine_of_smallest_angle(triangle.corners);
@@ -112,7 +112,7 @@ bool keeps_angles(const EditableSurface& surface, const Patch& patch, const Tole
   });
 }
 
-bool keeps_folds(const EditableSurface& surface, const Patch& patch, double largest_fold) {
+bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold) {
   const double limit = std::max(largest_fold, largest_replaced_fold(surface, patch));
   for (const PatchTriangle& triangle : patch.triangles) {
     const Vec3d normal = area_normal(triangle.corners);
@@ -168,7 +168,7 @@ bool crosses_others(const EditableSurface& surface, const std::vector<PatchTrian
 
 }  // namespace
 
-bool stays_clear(const EditableSurface& surface, const Patch& patch, const Surroundings& surroundings) {
+bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings) {
   if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, patch.replaced, surroundings)) {
     return true;
   }

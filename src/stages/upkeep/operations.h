@@ -45,7 +45,7 @@ class Operations {
   const Tolerances& tolerances_;
   double size_;
   std::optional<Surroundings> surroundings_;  // made when first needed
-  Patch patch_;
+  PlannedPatch patch_;
 };
 
 }  // namespace particle_surface_tracker

@@ -12,7 +12,7 @@ Vec3d normal_of(const EditableSurface& surface, std::uint32_t triangle) {
 /// centre replaced. `is_first` and `is_last` tell the ends of the open fan, which close onto other triangles of the
 /// patch.
 void append_fan(const EditableSurface& surface, std::uint32_t half_edge, std::uint32_t center, const Vec3d& position,
-                Patch& patch) {
+                PlannedPatch& patch) {
   for (std::uint32_t h = surface.turn(half_edge); surface.turn(h) != half_edge; h = surface.turn(h)) {
     const std::uint32_t outer = next_half_edge(h);
     const std::uint32_t a = surface.start(outer), b = surface.end(outer);
@@ -25,7 +25,7 @@ void append_fan(const EditableSurface& surface, std::uint32_t half_edge, std::ui
 }
 
 /// The two halves of the triangle (a, b, c) of a half-edge that is split.
-void append_halves(const EditableSurface& surface, std::uint32_t half_edge, const Vec3d& middle, Patch& patch) {
+void append_halves(const EditableSurface& surface, std::uint32_t half_edge, const Vec3d& middle, PlannedPatch& patch) {
   const std::uint32_t a = surface.start(half_edge), b = surface.end(half_edge), c = surface.apex(half_edge);
   const Vec3d at_a = surface.position(a), at_b = surface.position(b), at_c = surface.position(c);
   const Vec3d normal = normal_of(surface, half_edge / 3);
@@ -42,7 +42,7 @@ void append_halves(const EditableSurface& surface, std::uint32_t half_edge, cons
 
 }  // namespace
 
-void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, Patch& patch) {
+void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, PlannedPatch& patch) {
   const std::uint32_t twin = surface.twin(half_edge);
   const std::uint32_t kept = surface.end(half_edge);
   patch.triangles.clear();
@@ -51,14 +51,14 @@ void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, cons
   append_fan(surface, twin, kept, position.cast<double>(), patch);
 }
 
-void plan_split(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, Patch& patch) {
+void plan_split(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, PlannedPatch& patch) {
   patch.triangles.clear();
   patch.replaced.clear();
   append_halves(surface, half_edge, position.cast<double>(), patch);
   append_halves(surface, surface.twin(half_edge), position.cast<double>(), patch);
 }
 
-void plan_flip(const EditableSurface& surface, std::uint32_t half_edge, Patch& patch) {
+void plan_flip(const EditableSurface& surface, std::uint32_t half_edge, PlannedPatch& patch) {
   const std::uint32_t twin = surface.twin(half_edge);
   const std::uint32_t a = surface.start(half_edge), b = surface.end(half_edge);
   const std::uint32_t c = surface.apex(half_edge), d = surface.apex(twin);

@@ -21,18 +21,18 @@ struct PatchTriangle {
 };
 
 /// What an operation would change, to be judged before it is done.
-struct Patch {
+struct PlannedPatch {
   std::vector<PatchTriangle> triangles;  ///< What would be there.
   std::vector<std::uint32_t> replaced;   ///< Triangles that would go.
 };
 
 /// A collapse of the edge of `half_edge` onto its end, which would move to `position`.
-void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, Patch& patch);
+void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, PlannedPatch& patch);
 
 /// A split of the edge of `half_edge` by a vertex at `position`.
-void plan_split(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, Patch& patch);
+void plan_split(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, PlannedPatch& patch);
 
 /// A flip of the edge of `half_edge`.
-void plan_flip(const EditableSurface& surface, std::uint32_t half_edge, Patch& patch);
+void plan_flip(const EditableSurface& surface, std::uint32_t half_edge, PlannedPatch& patch);
 
 }  // namespace particle_surface_tracker
