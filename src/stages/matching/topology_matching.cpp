@@ -19,6 +19,9 @@ namespace {
 /// The region grows where Γ changes sides near its rim, but not for ever.
 constexpr int kMostEnlargements = 6;
 
+/// It grows by at least this, so that what changed is no longer near the rim [nodes].
+constexpr int kSmallestGrowth = 3;
+
 /// With the paper's ω_opt a few times N sweeps are enough.
 constexpr int kMostIterations = 20000;
 
@@ -52,7 +55,8 @@ class TopologyMatching {
       }
       if (more.leaves().empty()) break;
       ++result_.statistics.enlargements;
-      more.dilate(reach, reach);
+      const int growth = std::max(reach, kSmallestGrowth);
+      more.dilate(growth, growth);
       unite(region, more);
     }
     return std::move(result_);

@@ -47,21 +47,33 @@ Run run(const MeshLattice& lattice, const ImplicitSurface& surface, const std::v
   return result;
 }
 
-/// Number of the elements of a that are not in b.
-std::size_t missing(const std::vector<openvdb::Coord>& a, const std::vector<openvdb::Coord>& b) {
+/// The changed nodes of one that the other did not change.
+struct Missed {
+  std::size_t count = 0;
+  double depth = 0.0;  ///< Largest |Γ| at one of them [m]: small where only the place of the zero differs.
+};
+
+Missed missed_by(const MatchedVoxelization& a, const MatchedVoxelization& b) {
   std::vector<openvdb::Coord> difference;
-  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(difference));
-  return difference.size();
+  std::set_difference(a.changed.begin(), a.changed.end(), b.changed.begin(), b.changed.end(),
+                      std::back_inserter(difference));
+  Missed missed{difference.size()};
+  for (const openvdb::Coord& node : difference) {
+    const auto found = std::lower_bound(a.nodes.begin(), a.nodes.end(), node) - a.nodes.begin();
+    missed.depth = std::max(missed.depth, std::abs(static_cast<double>(a.gamma[found])));
+  }
+  return missed;
 }
 
-void print(const std::string& name, const Run& run, const Run& reference) {
+void print(const std::string& name, const Run& run, const Run& reference, double h) {
   const MatchingStatistics& s = run.matched.statistics;
+  const Missed missed = missed_by(reference.matched, run.matched);
+  const Missed extra = missed_by(run.matched, reference.matched);
   fmt::print(
-      "    {:12} {:8} unknown {:7} fixed {:5} free {:6} iterations {:2} enlargements {:6} changed {:5} missed "
-      "{:5} extra {:8.1f} ms\n",
+      "    {:12} {:8} unknown {:7} fixed {:5} free {:6} iterations {:2} enlargements {:6} changed {:5} missed {:5} "
+      "extra {:5.2f} h deep {:8.1f} ms\n",
       name, s.unknowns, s.fixed, s.free_unknowns, s.iterations, s.enlargements, run.matched.changed.size(),
-      missing(reference.matched.changed, run.matched.changed), missing(run.matched.changed, reference.matched.changed),
-      run.milliseconds);
+      missed.count, extra.count, std::max(missed.depth, extra.depth) / h, run.milliseconds);
 }
 
 double largest_difference(const MatchedVoxelization& a, const MatchedVoxelization& b) {
@@ -96,20 +108,20 @@ void study_frame(std::size_t frame, const Tracker& tracker, const Options& optio
   parameters.matching_reach = 0.0;
   parameters.matching_solver = MatchingSolver::kPcg;
   const Run whole = run(lattice, surface, cells, parameters);
-  print("whole, pcg", whole, whole);
+  print("whole, pcg", whole, whole, h);
   parameters.matching_solver = MatchingSolver::kSor;
   const Run whole_sor = run(lattice, surface, cells, parameters);
-  print("whole, sor", whole_sor, whole);
+  print("whole, sor", whole_sor, whole, h);
   fmt::print("      sor differs by up to {:.1f} beta\n",
              largest_difference(whole_sor.matched, whole.matched) / (parameters.beta * h));
   for (const double reach : options.reaches) {
     parameters.matching_reach = reach;
     parameters.matching_solver = MatchingSolver::kPcg;
     const Run pcg = run(lattice, surface, cells, parameters);
-    print(fmt::format("{} r, pcg", reach), pcg, whole);
+    print(fmt::format("{} r, pcg", reach), pcg, whole, h);
     parameters.matching_solver = MatchingSolver::kSor;
     const Run sor = run(lattice, surface, cells, parameters);
-    print(fmt::format("{} r, sor", reach), sor, pcg);
+    print(fmt::format("{} r, sor", reach), sor, pcg, h);
     fmt::print("      sor differs by up to {:.1f} beta\n",
                largest_difference(sor.matched, pcg.matched) / (parameters.beta * h));
   }
