@@ -41,16 +41,15 @@ std::vector<Vec3f> advect(const std::vector<Vec3f>& vertices, const ParticleMoti
   const auto& tiles = vertex_grid.tiles();
   const std::uint32_t* const order = vertex_grid.index().data();
   tbb::enumerable_thread_specific<VertexAdvection> advections([&] { return VertexAdvection(sorted, parameters); });
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size()),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      VertexAdvection& advection = advections.local();
-                      for (std::size_t t = range.begin(); t != range.end(); ++t) {
-                        ParticleGrid::for_each_cell(tiles[t], [&](const LatticeCoord& cell, std::uint32_t begin,
-                                                                std::uint32_t end) {
-                          advection.advect_cell(cell, order + begin, order + end, vertices, advected);
-                        });
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, tiles.size()), [&](const tbb::blocked_range<std::size_t>& range) {
+        VertexAdvection& advection = advections.local();
+        for (std::size_t t = range.begin(); t != range.end(); ++t) {
+          ParticleGrid::for_each_cell(tiles[t], [&](const LatticeCoord& cell, std::uint32_t begin, std::uint32_t end) {
+            advection.advect_cell(cell, order + begin, order + end, vertices, advected);
+          });
+        }
+      });
   return advected;
 }
 

@@ -133,8 +133,8 @@ AffineFit fit_affine_motion(const MotionSums& sums, double r, const Parameters& 
 
   // What the fit leaves unexplained: nothing where the particles move as one body, much where several bodies meet. It
   // weighs more where few particles settle the fit, and where the vertex lies far outside of them.
-  const double unexplained = std::max(
-      0.0, m.variance - 2.0 * a.cwiseProduct(m.cross).sum() + (a * m.covariance).cwiseProduct(a).sum());
+  const double unexplained =
+      std::max(0.0, m.variance - 2.0 * a.cwiseProduct(m.cross).sum() + (a * m.covariance).cwiseProduct(a).sum());
   const Matrix3d regular = m.covariance + smallest_variance * Matrix3d::Identity();
   const double leverage = 1.0 + m.offset.dot(regular.inverse() * m.offset);
   const double factor = leverage * settling_factor(sums.neighbors);

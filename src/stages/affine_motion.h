@@ -35,7 +35,7 @@ struct AffineFit {
   Vec3d displacement = Vec3d::Zero();  ///< [m]
   double trust = 0.0;                  ///< 1 where the particles move as one body, 0 where they do not.
   double unrigidness = 0.0;            ///< How far the motion is from a rigid one (root mean square) [m].
-  int rank = 0;  ///< In how many directions the particles spread by more than the rank threshold.
+  int rank = 0;                        ///< In how many directions the particles spread by more than the rank threshold.
 };
 
 /// Fits u(d) ≈ ū + A (d − d̄), bounded as docs/advection.md explains. Any sums at all: most vertices need only the

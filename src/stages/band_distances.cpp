@@ -94,7 +94,8 @@ class DistanceScan {
   void for_each_neighbor(const openvdb::Coord& origin, Visit&& visit) const {
     for (int n = 0; n < 27; ++n) {
       const openvdb::Coord step(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-      const std::uint32_t number = wanted_.find(origin.offsetBy(kWidth * step.x(), kWidth * step.y(), kWidth * step.z()));
+      const std::uint32_t number =
+          wanted_.find(origin.offsetBy(kWidth * step.x(), kWidth * step.y(), kWidth * step.z()));
       if (number != LeafIndex::none) visit(step, number);
     }
   }

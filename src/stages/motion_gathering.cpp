@@ -11,8 +11,7 @@ constexpr double kSlack = 1e-5;
 
 }  // namespace
 
-SortedMotion::SortedMotion(const ParticleMotion& motion, const ParticleGrid& grid)
-    : particles_(motion), grid_(grid) {
+SortedMotion::SortedMotion(const ParticleMotion& motion, const ParticleGrid& grid) : particles_(motion), grid_(grid) {
   displacements_.reserve(grid.size());
   for (const std::uint32_t particle : grid.index()) displacements_.push_back(motion.displacements[particle]);
 }

@@ -204,12 +204,14 @@ PST_INLINE void fit_all(const PlainFit& bounds, MotionBatch& batch) {
   for (int first = 0; first < batch.used; first += Width::count) fit_lanes<Width>(bounds, first, batch);
 }
 
-#define PST_MOTION_KERNEL(name, Width, target)                                                       \
+#define PST_MOTION_KERNEL(name, Width, target)                                                           \
   target void sum_##name(const NearParticle* particles, std::size_t count, float inverse_squared_radius, \
-                         float* weights, MotionBatch& batch) {                                       \
-    sum_all<Width>(particles, count, inverse_squared_radius, weights, batch);                        \
-  }                                                                                                  \
-  target void fit_##name(const PlainFit& bounds, MotionBatch& batch) { fit_all<Width>(bounds, batch); }
+                         float* weights, MotionBatch& batch) {                                           \
+    sum_all<Width>(particles, count, inverse_squared_radius, weights, batch);                            \
+  }                                                                                                      \
+  target void fit_##name(const PlainFit& bounds, MotionBatch& batch) {                                   \
+    fit_all<Width>(bounds, batch);                                                                       \
+  }
 
 PST_MOTION_KERNEL(baseline, Four, )
 PST_MOTION_KERNEL(avx2, Eight, __attribute__((target("avx2"))))

@@ -21,21 +21,21 @@ struct MotionBatch {
   static constexpr int lanes = 16;
   using Lanes = std::array<float, lanes>;
 
-  int used = 0;                              ///< Lanes from 0 that hold a vertex.
+  int used = 0;                               ///< Lanes from 0 that hold a vertex.
   alignas(64) std::array<Lanes, 3> vertex{};  ///< Relative to the group's origin [m].
 
   alignas(64) std::array<Lanes, MotionSums::size> sums;   ///< Out: as in MotionSums.
   alignas(64) std::array<std::int32_t, lanes> neighbors;  ///< Out: particles with a weight.
 
-  alignas(64) std::array<Lanes, 3> average;            ///< Out: ū [m].
-  alignas(64) std::array<Lanes, 3> correction;         ///< Out: what the fit adds to the average at the vertex [m].
-  alignas(64) Lanes squared_misfit;                    ///< Out: without the settling factor [m²].
+  alignas(64) std::array<Lanes, 3> average;              ///< Out: ū [m].
+  alignas(64) std::array<Lanes, 3> correction;           ///< Out: what the fit adds to the average at the vertex [m].
+  alignas(64) Lanes squared_misfit;                      ///< Out: without the settling factor [m²].
   alignas(64) std::array<std::int32_t, lanes> is_plain;  ///< Out: −1 where the fit needs no more care, else 0.
 };
 
 /// Bounds of the plain case.
 struct PlainFit {
-  float smallest_variance;        ///< The particles must spread by more than this in all directions [m²].
+  float smallest_variance;         ///< The particles must spread by more than this in all directions [m²].
   float largest_squared_gradient;  ///< Squared Frobenius norm of A up to which no stretch can be beyond its bound.
 };
 

@@ -5,8 +5,8 @@
 namespace particle_surface_tracker {
 
 /// Squared distances [cells²] of the nodes around the cells of a leaf: 16³, those of the leaf in the middle. There are
-/// two of each node, so that across any lattice axis neighbours lie in a run: in the first z runs fastest and x slowest,
-/// in the second y fastest and z slowest.
+/// two of each node, so that across any lattice axis neighbours lie in a run: in the first z runs fastest and x
+/// slowest, in the second y fastest and z slowest.
 struct DistanceBlock {
   static constexpr int width = 16;
   static constexpr int margin = 4;  ///< Nodes before those of the leaf, and behind them.
@@ -17,9 +17,9 @@ struct DistanceBlock {
 
 /// How patches lie in a block.
 struct PatchAxes {
-  int slice;        ///< The axis that their slices lie across.
-  int row, column;  ///< The axes within a slice.
-  int begin;        ///< Where the nodes they are among begin in the block.
+  int slice;                     ///< The axis that their slices lie across.
+  int row, column;               ///< The axes within a slice.
+  int begin;                     ///< Where the nodes they are among begin in the block.
   int slice_stride, row_stride;  ///< From a node to the next one along these axes; along the columns' it is 1.
 };
 

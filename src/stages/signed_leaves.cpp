@@ -35,9 +35,8 @@ SignLeaf seed_signs(const ImplicitSurface& surface, const NodeMasks& wanted, con
     leaf.neighbors[side] = wanted.find(neighbor);
   }
   for (int x = 0; x < kWidth; ++x) {
-    for_each_bit(wanted_leaf.words[x], [&](int bit) {
-      leaf.unknown[x] |= std::uint64_t{distances[64 * x + bit] <= squared_reach} << bit;
-    });
+    for_each_bit(wanted_leaf.words[x],
+                 [&](int bit) { leaf.unknown[x] |= std::uint64_t{distances[64 * x + bit] <= squared_reach} << bit; });
   }
   const auto* field = surface.field->tree().probeConstLeaf(wanted_leaf.origin);
   if (field == nullptr) return leaf;

@@ -108,7 +108,8 @@ CellBounds SurfaceCells::make_bounds(std::uint32_t cell) const {
   bounds.radius = std::sqrt(squared_radius) + kSlack;
   bounds.height += kSlack;
   const bool is_bounded = cosine > kSmallestCosine;
-  bounds.slope = is_bounded ? std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) / cosine + kSlack : CellBounds::unbounded;
+  bounds.slope =
+      is_bounded ? std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) / cosine + kSlack : CellBounds::unbounded;
   return bounds;
 }
 

@@ -25,13 +25,13 @@ struct CellBounds {
   Vec3f normal;  ///< Unit, a mean.
   float radius;  ///< The triangles are within this of the center.
   float height;  ///< They are within this of the plane through the center across the normal.
-  float slope;   ///< Tangent of the largest angle between the normal and one around the cell's vertices, or `unbounded`.
+  float slope;  ///< Tangent of the largest angle between the normal and one around the cell's vertices, or `unbounded`.
 
   int axis;        ///< The lattice axis closest to the normal. Of the other two, in order:
   float shear[2];  ///< what the normal moves along them from slice to slice across the first one,
   float low[2];    ///< and the interval of the triangles, moved along the normal into slice 0.
   float high[2];
-  float bottom;    ///< The interval of the triangles along the first one.
+  float bottom;  ///< The interval of the triangles along the first one.
   float top;
 };
 

@@ -115,8 +115,8 @@ PatchAxes list_patches(const CellBounds& cell, const openvdb::Coord& corner, flo
         const int row = std::min(r, kLastStart);
         for (int c = columns.first[i]; c <= columns.last[i]; c += Patch::width) {
           const int column = std::min(c, kLastStart);
-          const int node = axes.begin + (slice - kFirst) * axes.slice_stride + (row - kFirst) * axes.row_stride +
-                           column - kFirst;
+          const int node =
+              axes.begin + (slice - kFirst) * axes.slice_stride + (row - kFirst) * axes.row_stride + column - kFirst;
           patches.push_back({static_cast<float>(slice - corner[axes.slice]), static_cast<float>(row - corner[axes.row]),
                              static_cast<float>(column - corner[axes.column]), node,
                              std::min(rows.last[i] - row + 1, Patch::width)});

@@ -18,8 +18,8 @@ Vec3d lane_of(const std::array<MotionBatch::Lanes, 3>& values, int lane) {
   return {values[0][lane], values[1][lane], values[2][lane]};
 }
 
-/// However well a fit seems to explain a collision, it must not throw a vertex; only motion that is as good as rigid may
-/// take it farther from the average than this.
+/// However well a fit seems to explain a collision, it must not throw a vertex; only motion that is as good as rigid
+/// may take it farther from the average than this.
 Vec3d bounded_correction(const Vec3d& correction, double unrigidness, double r, const Parameters& parameters) {
   const double rigid = kRigidShare * parameters.affine_max_residual * r;
   const double allowed = kLargestCorrection * r * std::max(1.0, rigid / std::max(unrigidness, 1e-9 * rigid));
@@ -27,8 +27,8 @@ Vec3d bounded_correction(const Vec3d& correction, double unrigidness, double r, 
   return length > allowed ? Vec3d(correction * (allowed / length)) : correction;
 }
 
-/// The weighted average, its radius expanded until there is a particle (Sec. 4), and a little more, so that its weight is
-/// not 0. Far from all particles that is the motion of the nearest one; no cell between is looked at.
+/// The weighted average, its radius expanded until there is a particle (Sec. 4), and a little more, so that its weight
+/// is not 0. Far from all particles that is the motion of the nearest one; no cell between is looked at.
 /// \param far [m]
 Vec3d average_around_nearest(const SortedMotion& motion, const Vec3d& vertex, double far) {
   const ParticleGrid& grid = motion.grid();

@@ -26,7 +26,8 @@ class BandProjection {
     const SignedDistanceField stencils = fields_.at_stencils(vertices_, reach + stencil_reach_);
     timer_.begin("projection");
     result_ = project(vertices_, delta_, stencils, parameters_);
-    project_absent([&](const std::vector<Vec3f>& absent) { return fields_.on_ways(absent, max_reach + stencil_reach_); });
+    project_absent(
+        [&](const std::vector<Vec3f>& absent) { return fields_.on_ways(absent, max_reach + stencil_reach_); });
     for (double wider_reach = reach;; wider_reach = std::min(2.0 * wider_reach, max_reach)) {
       const bool has_absent = project_absent(
           [&](const std::vector<Vec3f>& absent) { return fields_.around(absent, wider_reach + stencil_reach_); });

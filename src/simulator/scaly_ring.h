@@ -3,7 +3,7 @@
 #include "particle_surface_tracker/core/particle_frame.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 
-namespace particle_surface_tracker::demo {
+namespace particle_surface_tracker::simulator {
 
 /// A ring around the z axis whose tube has twisted lobes, covered with overlapping scales that carry a keel: relief
 /// much finer than the particles inside it. Every meridian section is star-shaped around the tube's centre line, so the
@@ -23,4 +23,4 @@ class ScalyRing {
   double tube_radius(double u, double v) const;
 };
 
-}  // namespace particle_surface_tracker::demo
+}  // namespace particle_surface_tracker::simulator

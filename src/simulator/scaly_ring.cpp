@@ -5,7 +5,7 @@
 
 #include "particle_surface_tracker/core/particle_grid.h"
 
-namespace particle_surface_tracker::demo {
+namespace particle_surface_tracker::simulator {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
@@ -165,4 +165,4 @@ ParticleFrame ScalyRing::fill(const TriangleMesh& mesh, double spacing) const {
   return make_particle_frame(0, std::move(centers), std::move(ids));
 }
 
-}  // namespace particle_surface_tracker::demo
+}  // namespace particle_surface_tracker::simulator

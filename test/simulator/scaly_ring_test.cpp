@@ -9,7 +9,7 @@
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 
-namespace particle_surface_tracker::demo {
+namespace particle_surface_tracker::simulator {
 namespace {
 
 TEST(ScalyRing, IsAClosedRing) {
@@ -76,4 +76,4 @@ TEST(ScalyRing, ParticlesLieBelowItsSurface) {
 }
 
 }  // namespace
-}  // namespace particle_surface_tracker::demo
+}  // namespace particle_surface_tracker::simulator
