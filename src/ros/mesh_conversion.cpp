@@ -2,16 +2,10 @@
 
 #include <vector>
 
+#include "flat_arrays.h"
+
 namespace particle_surface_tracker {
 namespace {
-
-template <typename Number, typename Triple>
-std::vector<Number> flat(const std::vector<Triple>& triples) {
-  std::vector<Number> numbers;
-  numbers.reserve(3 * triples.size());
-  for (const Triple& triple : triples) numbers.insert(numbers.end(), {triple[0], triple[1], triple[2]});
-  return numbers;
-}
 
 std::vector<float> attribute_values(const TriangleMesh& mesh, const char* name) {
   const std::size_t index = mesh.attributes().find(name);
