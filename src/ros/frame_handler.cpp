@@ -94,7 +94,8 @@ TrackedMesh FrameHandler::message(const MessageContent& content) const {
   TrackedMesh message = to_tracked_mesh(header_, mesh, topology_version_);
   if (content.normals) message.normals = flat<float>(vertex_normals(mesh.positions(), mesh.triangles()));
   // Frames that share a stamp have no time between them.
-  if (content.velocities && seconds_ > 0.0) message.velocities = flat<float>(vertex_velocities(*before_, mesh, seconds_));
+  if (content.velocities && seconds_ > 0.0)
+    message.velocities = flat<float>(vertex_velocities(*before_, mesh, seconds_));
   return message;
 }
 

@@ -18,8 +18,9 @@ class PlaceIndex {
   }
 
   const Vec3f* find(std::uint32_t id) const {
-    const auto found = std::lower_bound(order_.begin(), order_.end(), id,
-                                        [this](std::uint32_t n, std::uint32_t value) { return places_.ids[n] < value; });
+    const auto found = std::lower_bound(order_.begin(), order_.end(), id, [this](std::uint32_t n, std::uint32_t value) {
+      return places_.ids[n] < value;
+    });
     return found != order_.end() && places_.ids[*found] == id ? &places_.positions[*found] : nullptr;
   }
 

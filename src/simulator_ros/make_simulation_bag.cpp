@@ -1,5 +1,5 @@
-// make_simulation_bag: writes what simulator_node publishes, without a roscore: a bag of particles and the mesh of the
-// first frame.
+// make_simulation_bag: writes what simulator_node publishes, without a roscore: a bag of particles, or the mesh of the
+// first frame, or both.
 
 #include <algorithm>
 #include <iostream>
@@ -29,8 +29,10 @@ struct Options {
 
 // What the simulator checks itself, with its own texts, is not checked here.
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--bag", options.bag, "bag to write")->required();
-  app.add_option("--mesh-out", options.mesh_out, "also writes the mesh of the first frame, PLY");
+  CLI::App& outputs = *app.add_option_group("output", "at least one of");
+  outputs.add_option("--bag", options.bag, "bag of the particles");
+  outputs.add_option("--mesh-out", options.mesh_out, "the mesh of the first frame, PLY");
+  outputs.require_option(1, 2);
   app.add_option("--topic", options.topic, "topic of the particles")->capture_default_str();
   app.add_option("--frames", options.settings.frames, "number of frames")->capture_default_str();
   app.add_option("--start-time", options.settings.start_time, "stamp of the first frame [s]")->capture_default_str();
@@ -47,6 +49,7 @@ void add_options(CLI::App& app, Options& options) {
 void write_files(const Options& options) {
   pst::simulator::Simulation simulation(options.settings);
   if (!options.mesh_out.empty()) pst::write_ply(options.mesh_out, simulation.scene().mesh);
+  if (options.bag.empty()) return;
   pst::TrackingBagWriter bag(options.bag, options.topic);
   do {
     bag.write(simulation.cloud());

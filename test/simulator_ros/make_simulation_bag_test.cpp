@@ -97,6 +97,13 @@ TEST(MakeSimulationBag, WritesTheMeshOfTheFirstFrame) {
   EXPECT_EQ(mesh.positions(), Simulation(few_frames()).scene().mesh.positions());
 }
 
+TEST(MakeSimulationBag, CanWriteTheMeshAlone) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run(folder, "--mesh-out @/s.ply").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "s.ply"));
+  EXPECT_EQ(run(folder, "").code, 1) << "nothing to write";
+}
+
 TEST(MakeSimulationBag, SaysWhatIsWrongWithItsOptions) {
   const TemporaryFolder folder;
   const auto expect_usage_error = [&](const std::string& arguments, const std::string& text) {
