@@ -18,8 +18,10 @@ ExitCode fail(ExitCode code, const std::exception& error) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "simulator");
+  // ROS shuts down with its last handle, and would not print what fail() has to say.
+  const ros::NodeHandle handle;
   try {
-    particle_surface_tracker::simulator::SimulatorNode(ros::NodeHandle(), ros::NodeHandle("~")).run();
+    particle_surface_tracker::simulator::SimulatorNode(handle, ros::NodeHandle("~")).run();
   } catch (const particle_surface_tracker::ParameterError& error) {
     return fail(kUsage, error);
   } catch (const particle_surface_tracker::OutputError& error) {
