@@ -31,7 +31,7 @@ visualization_msgs::MarkerArray make_tank_markers(const SimulatorParameters& par
   visualization_msgs::MarkerArray result;
   const double width = 2.0 * parameters.tank_half_width;
   result.markers.push_back(
-      marker(frame_id, 0, Marker::CUBE, {0.0, 0.0, -0.5 * kFloorThickness}, {width, width, kFloorThickness}, 0.3F));
+      marker(frame_id, 0, Marker::CUBE, {0.0, 0.0, -0.5 * kFloorThickness}, {width, width, kFloorThickness}, 0.75F));
   for (const Sphere& sphere : parameters.obstacles) {
     const int id = static_cast<int>(result.markers.size());
     result.markers.push_back(
