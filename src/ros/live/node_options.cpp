@@ -1,6 +1,5 @@
 #include "ros/live/node_options.h"
 
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,8 +15,11 @@ namespace {
 void read_spacing(PrivateParameters& source, FrameHandlerOptions& handler) {
   const std::string spacing = source.text("spacing").value_or("auto");
   handler.estimate_spacing = spacing == "auto";
-  if (!handler.estimate_spacing) {
-    handler.parameters.particle_spacing = source.real("spacing", 0.0, std::numeric_limits<double>::min(), 1e6);
+  if (handler.estimate_spacing) return;
+  try {
+    set_parameter(handler.parameters, "particle_spacing", spacing);
+  } catch (const ParameterError&) {
+    throw ParameterError(fmt::format("~spacing is '{}'; it must be a positive number [m], or auto", spacing));
   }
 }
 

@@ -1,6 +1,16 @@
 #include "ros/live/tracker_node.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace particle_surface_tracker {
+namespace {
+
+// roscpp's own queue drops silently. It is emptied at once, and long enough for that never to happen before the queue of
+// the node is full, which says what it drops.
+constexpr std::size_t kSmallestSubscriberQueue = 100;
+
+}  // namespace
 
 TrackerNode::TrackerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
     : TrackerNode(std::move(handle), private_handle, read_node_options(private_handle)) {}
@@ -14,7 +24,7 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
   for (const std::string& warning : options.warnings) ROS_WARN_STREAM(private_handle.getNamespace() << ": " << warning);
   reset_service_ = private_handle.advertiseService("reset", &TrackerNode::reset, this);
   particles_ = handle.subscribe<sensor_msgs::PointCloud2>(
-      "particles", static_cast<std::uint32_t>(options.queue_size),
+      "particles", static_cast<std::uint32_t>(std::max(options.queue_size, kSmallestSubscriberQueue)),
       [this](const sensor_msgs::PointCloud2ConstPtr& cloud) { worker_.receive(cloud); }, ros::VoidConstPtr(),
       ros::TransportHints().tcpNoDelay());
 }

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
     const particle_surface_tracker::TrackerNode node(ros::NodeHandle(), ros::NodeHandle("~"));
     ros::spin();
   } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("cannot start: " << error.what());
+    ROS_FATAL_STREAM(ros::this_node::getName() << ": cannot start: " << error.what());
     return 1;
   }
   return 0;

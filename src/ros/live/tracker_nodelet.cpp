@@ -15,7 +15,7 @@ class TrackerNodelet : public nodelet::Nodelet {
       node_ = std::make_unique<TrackerNode>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const std::exception& error) {
       // The manager drops the nodelet and lives on, but says nothing of the reason.
-      NODELET_FATAL_STREAM("cannot start: " << error.what());
+      ROS_FATAL_STREAM(getName() << ": cannot start: " << error.what());
       throw;
     }
   }

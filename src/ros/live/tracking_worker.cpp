@@ -16,6 +16,10 @@ std::string stamp_of(const std_msgs::Header& header) {
   return fmt::format("stamp {}.{:09}", header.stamp.sec, header.stamp.nsec);
 }
 
+std::string count_missing(std::uint64_t count) {
+  return count == 1 ? "1 frame is missing" : fmt::format("{} frames are missing", count);
+}
+
 }  // namespace
 
 TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, const std::string& name)
@@ -166,11 +170,11 @@ bool TrackingWorker::admit(const ReceivedFrame& frame, TrackerStatus& status) {
   }
   if (judgement.missing > 0) {
     counts_.frames_missing += judgement.missing;
-    status.warnings.push_back(fmt::format("{} frames are missing before this one", judgement.missing));
+    status.warnings.push_back(count_missing(judgement.missing) + " before this one");
     log_.warn_sometimes("missing",
-                        fmt::format("{} frames are missing before {}; {} so far. They were lost on the way: raise "
-                                    "~queue_size, here and at the publisher",
-                                    judgement.missing, stamp_of(frame.header), counts_.frames_missing));
+                        fmt::format("{} before {}; {} so far. What is lost on the way: raise ~queue_size, and the queue "
+                                    "of the publisher",
+                                    count_missing(judgement.missing), stamp_of(frame.header), counts_.frames_missing));
   }
   return true;
 }
