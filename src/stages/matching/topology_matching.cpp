@@ -19,7 +19,8 @@ namespace {
 /// The region grows where Γ changes sides near its rim, but not for ever.
 constexpr int kMostEnlargements = 6;
 
-/// It grows by at least this, so that what changed is no longer near the rim [nodes].
+/// It grows by at least this, so that what changed is no longer near the rim, and by twice as much in every round, so
+/// that a long bubble is not left half done [nodes].
 constexpr int kSmallestGrowth = 3;
 
 /// With the paper's ω_opt a few times N sweeps are enough.
@@ -55,7 +56,7 @@ class TopologyMatching {
       }
       if (more.leaves().empty()) break;
       ++result_.statistics.enlargements;
-      const int growth = std::max(reach, kSmallestGrowth);
+      const int growth = std::max(reach, kSmallestGrowth) << round;
       more.dilate(growth, growth);
       unite(region, more);
     }

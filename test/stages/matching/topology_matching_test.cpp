@@ -1,7 +1,9 @@
 #include "particle_surface_tracker/stages/topology_matching.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -191,7 +193,17 @@ TEST(TopologyMatching, AReachThatIsLargeEnoughGivesWhatTheWholeDomainGives) {
     const MatchedVoxelization near = balls.match(make_parameters());
     const MatchedVoxelization whole = balls.match(with("matching_reach", "0"));
     EXPECT_GT(whole.nodes.size(), near.nodes.size());
-    EXPECT_EQ(near.changed, whole.changed);
+    EXPECT_EQ(count_components(nodes_inside(balls.lattice, near)),
+              count_components(nodes_inside(balls.lattice, whole)));
+    // ψ may differ a little; then so does the side of nodes that Γ's zero passes through, and of no others.
+    std::vector<openvdb::Coord> differing;
+    std::set_symmetric_difference(near.changed.begin(), near.changed.end(), whole.changed.begin(), whole.changed.end(),
+                                  std::back_inserter(differing));
+    for (const openvdb::Coord& node : differing) {
+      const auto at = std::lower_bound(whole.nodes.begin(), whole.nodes.end(), node) - whole.nodes.begin();
+      EXPECT_LT(std::abs(whole.gamma[static_cast<std::size_t>(at)]), 0.02 * kH) << node;
+    }
+    EXPECT_LT(differing.size(), 3u);
   }
 }
 
