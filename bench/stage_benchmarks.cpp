@@ -14,10 +14,13 @@
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "particle_surface_tracker/stages/advection.h"
+#include "particle_surface_tracker/stages/disagreement.h"
 #include "particle_surface_tracker/stages/distance_field.h"
 #include "particle_surface_tracker/stages/implicit_function.h"
+#include "particle_surface_tracker/stages/mesh_lattice.h"
 #include "particle_surface_tracker/stages/projection.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
+#include "particle_surface_tracker/stages/topology_matching.h"
 #include "support/detailed_body.h"
 
 namespace particle_surface_tracker {
@@ -95,6 +98,73 @@ void projection(benchmark::State& state) {
   state.counters["vertices"] = static_cast<double>(body.mesh.vertex_count());
 }
 
+/// The mesh of a body where it was put into the lattice of Γ, its δ, and flags within 3 r of one vertex.
+struct MatchingInput {
+  ImplicitSurface surface;
+  MeshLattice lattice;
+  std::vector<float> delta;
+  std::vector<openvdb::Coord> flagged;
+
+  explicit MatchingInput(const FilledBody& body)
+      : surface(surface_of(body)), lattice(body.mesh.positions(), body.mesh.triangles(), cell_size(body)) {
+    std::vector<ProjectionStatus> status;
+    delta =
+        measure_delta(body.mesh.positions(), DistanceFields(surface).at_stencils(body.mesh.positions(), reach_of(body)),
+                      body.parameters, status);
+    const int width = static_cast<int>(3.0 / body.parameters.dx_gamma);
+    const openvdb::Coord center = lattice.cell_of_vertex(0);
+    const openvdb::CoordBBox box(center.offsetBy(-width), center.offsetBy(width));
+    for (auto cell = box.begin(); cell; ++cell) flagged.push_back(*cell);
+  }
+
+  static double cell_size(const FilledBody& body) {
+    return body.parameters.dx_gamma * body.parameters.particle_spacing;
+  }
+};
+
+void mesh_lattice(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(MeshLattice(body.mesh.positions(), body.mesh.triangles(), MatchingInput::cell_size(body)));
+  }
+}
+
+void disagreement(benchmark::State& state) {
+  const FilledBody& body = body_of(state.range(0));
+  const MatchingInput input(body);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(find_disagreement(input.lattice, input.delta, input.surface, body.parameters));
+  }
+}
+
+void match(benchmark::State& state, MatchingSolver solver, double reach) {
+  const FilledBody& body = body_of(state.range(0));
+  const MatchingInput input(body);
+  Parameters parameters = body.parameters;
+  parameters.matching_solver = solver;
+  parameters.matching_reach = reach;
+  MatchedVoxelization matched;
+  for (auto _ : state) matched = match_topology(input.lattice, input.surface, input.flagged, parameters);
+  state.counters["unknowns"] = static_cast<double>(matched.statistics.unknowns);
+  state.counters["iterations"] = matched.statistics.iterations;
+}
+
+void matching_sor(benchmark::State& state) {
+  match(state, MatchingSolver::kSor, Parameters().matching_reach);
+}
+
+void matching_pcg(benchmark::State& state) {
+  match(state, MatchingSolver::kPcg, Parameters().matching_reach);
+}
+
+void matching_whole_sor(benchmark::State& state) {
+  match(state, MatchingSolver::kSor, 0.0);
+}
+
+void matching_whole_pcg(benchmark::State& state) {
+  match(state, MatchingSolver::kPcg, 0.0);
+}
+
 void few(benchmark::internal::Benchmark* benchmark) {
   benchmark->Arg(28000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 }
@@ -109,6 +179,12 @@ BENCHMARK(implicit_function)->Apply(few_and_many);
 BENCHMARK(triangulation)->Apply(few_and_many);
 BENCHMARK(distance_field)->Apply(few);
 BENCHMARK(projection)->Apply(few);
+BENCHMARK(mesh_lattice)->Apply(few);
+BENCHMARK(disagreement)->Apply(few);
+BENCHMARK(matching_sor)->Apply(few);
+BENCHMARK(matching_pcg)->Apply(few);
+BENCHMARK(matching_whole_sor)->Apply(few);
+BENCHMARK(matching_whole_pcg)->Apply(few);
 
 }  // namespace
 

@@ -14,6 +14,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper, vtkProperty, vtkRenderer, vtkRenderWindow,
                                          vtkTextActor, vtkWindowToImageFilter)
@@ -22,6 +23,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the renderer
 
 PALE = (0.70, 0.79, 0.88)
 INSIDE = (0.85, 0.10, 0.05)
+BALL = (0.45, 0.45, 0.47)
 MARGIN_LEFT, MARGIN_TOP = 34, 34  # Pixels for the labels.
 PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
              "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
@@ -42,7 +44,7 @@ def main():
     near = [far.moved_to(point, arguments.zoom) for point in followed_point(tracked, far)]
     rows = [("particles alone", implicit, [far] * len(frames)), ("tracked mesh", tracked, [far] * len(frames)),
             ("particles, near", implicit, near), ("tracked, near", tracked, near)]
-    draw(rows, [f"frame {k}" for k in frames], far.aspect, arguments.width, arguments.out)
+    draw(rows, [f"frame {k}" for k in frames], arguments.ball, far.aspect, arguments.width, arguments.out)
     print(arguments.out)
 
 
@@ -55,6 +57,7 @@ def parse_arguments():
     parser.add_argument("--width", type=int, default=400, help="of a column [pixels]")
     parser.add_argument("--view", type=float, nargs=3, default=(0.35, -1.0, 0.9), help="direction to the camera")
     parser.add_argument("--up", type=float, nargs=3, default=(0, 0, 1), help="direction that is up in the picture")
+    parser.add_argument("--ball", type=float, nargs=4, metavar=("X", "Y", "Z", "RADIUS"), help="also shows a solid ball")
     parser.add_argument("--zoom", type=float, default=3.5, help="of the rows that show the surface from near")
     return parser.parse_args()
 
@@ -194,7 +197,7 @@ def followed_point(meshes, camera):
     return [mesh.positions[row[best]] for mesh, row in zip(meshes, rows)]
 
 
-def draw(rows, titles, aspect, width, path):
+def draw(rows, titles, ball, aspect, width, path):
     """Renders all cells of the sheet in one window and saves it."""
     height = round(width / aspect)
     size = (MARGIN_LEFT + width * len(titles), MARGIN_TOP + height * len(rows))
@@ -212,7 +215,7 @@ def draw(rows, titles, aspect, width, path):
         labels.AddActor2D(label(title, MARGIN_LEFT / 2, bottom + height / 2, 90))
         for column, (mesh, camera) in enumerate(zip(meshes, cameras)):
             left = MARGIN_LEFT + width * column
-            renderer = lit_renderer(mesh.actor())
+            renderer = lit_renderer([mesh.actor()] + ([ball_actor(*ball)] if ball else []))
             renderer.SetViewport((left + 1) / size[0], (bottom + 1) / size[1], (left + width - 1) / size[0],
                                  (bottom + height - 1) / size[1])
             camera.apply(renderer.GetActiveCamera())
@@ -228,7 +231,7 @@ def draw(rows, titles, aspect, width, path):
     writer.Write()
 
 
-def lit_renderer(actor):
+def lit_renderer(actors):
     renderer = vtkRenderer()
     renderer.SetBackground(0.96, 0.96, 0.97)
     renderer.AutomaticLightCreationOff()
@@ -238,8 +241,23 @@ def lit_renderer(actor):
         light.SetPosition(*position)
         light.SetIntensity(intensity)
         renderer.AddLight(light)
-    renderer.AddActor(actor)
+    for actor in actors:
+        renderer.AddActor(actor)
     return renderer
+
+
+def ball_actor(x, y, z, radius):
+    ball = vtkSphereSource()
+    ball.SetCenter(x, y, z)
+    ball.SetRadius(radius)
+    ball.SetThetaResolution(60)
+    ball.SetPhiResolution(30)
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(ball.GetOutputPort())
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(BALL)
+    return actor
 
 
 def label(text, x, y, angle):

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
+#include "exact_triangles.h"
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 
@@ -50,33 +51,11 @@ std::vector<Component> split_into_components(const TriangleMesh& mesh) {
   return components;
 }
 
-/// What an edge adds to the winding number of its triangle's shadow in the yz plane around `point`: a half-open
-/// crossing of the ray towards +y. It is computed from the lower end of the edge, so that both its triangles see the
-/// same.
-int shadow_crossing(const Vec3d& point, const Vec3d& from, const Vec3d& to) {
-  const bool rises = from.z() <= point.z() && to.z() > point.z();
-  const bool falls = to.z() <= point.z() && from.z() > point.z();
-  if (!rises && !falls) return 0;
-  const Vec3d& low = rises ? from : to;
-  const Vec3d& high = rises ? to : from;
-  const double y = low.y() + (high.y() - low.y()) * ((point.z() - low.z()) / (high.z() - low.z()));
-  if (y <= point.y()) return 0;
-  return rises ? 1 : -1;
-}
-
-/// How often a closed component winds around a point: its signed crossings with the ray from the point towards +x.
-int winding_number(const Vec3d& point, const TriangleMesh& mesh, const Component& component) {
+/// How often a closed component winds around a point.
+int winding_number(const Vec3f& point, const TriangleMesh& mesh, const Component& component) {
   int winding = 0;
   for (const std::uint32_t t : component.triangles) {
-    const Triangle& triangle = mesh.triangles()[t];
-    const Vec3d a = mesh.positions()[triangle[0]].cast<double>();
-    const Vec3d b = mesh.positions()[triangle[1]].cast<double>();
-    const Vec3d c = mesh.positions()[triangle[2]].cast<double>();
-    const int shadow = shadow_crossing(point, a, b) + shadow_crossing(point, b, c) + shadow_crossing(point, c, a);
-    if (shadow == 0) continue;
-    const Vec3d normal = (b - a).cross(c - a);
-    const bool crossed_ahead = normal.x() > 0 ? normal.dot(a - point) > 0 : normal.dot(a - point) < 0;
-    if (crossed_ahead) winding += shadow;
+    winding += crossing_above(mesh.positions(), mesh.triangles()[t], point);
   }
   return winding;
 }
@@ -88,7 +67,7 @@ bool lies_inside(const TriangleMesh& mesh, const Component& inner, const Compone
   std::size_t inside = 0;
   for (std::size_t vote = 0; vote < kVotes; ++vote) {
     const std::uint32_t vertex = inner.vertices[vote * (inner.vertices.size() - 1) / (kVotes - 1)];
-    inside += winding_number(mesh.positions()[vertex].cast<double>(), mesh, outer) != 0;
+    inside += winding_number(mesh.positions()[vertex], mesh, outer) != 0;
   }
   return 2 * inside > kVotes;
 }

@@ -15,8 +15,9 @@ namespace particle_surface_tracker {
 
 namespace {
 
-using Field = std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*,
-                           ProjectionMethod Parameters::*>;
+using Field =
+    std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*, ProjectionMethod Parameters::*,
+                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*, TopologyMode Parameters::*>;
 
 struct Entry {
   ParameterInfo info;
@@ -95,8 +96,40 @@ std::vector<Entry> make_entries() {
       integer(&P::projection_max_steps, "projection_max_steps", 1, 100000, "Most steps of one projection."),
       real(&P::tau, "tau", "tau", "r", 1e-3, 100.0, false,
            "A projection that moves a vertex farther than this is taken for a change of topology."),
+      choice(&P::topology, "topology", {"keep", "match"},
+             "Whether the mesh splits and merges as the particles do, or keeps its connectivity."),
       real(&P::dx_gamma, "dx_gamma", "dx_Gamma", "r", 0.1, 4.0, true,
            "Cell size of the voxelisation Gamma of the mesh, in which changes of topology are flagged."),
+      choice(&P::detection, "detection", {"tau", "tau_and_signs"},
+             "What is taken for a change of topology: vertices that jump, as in the paper, or also places where mesh "
+             "and implicit surface disagree about inside and outside, such as new drops and bubbles."),
+      real(&P::matching_reach, "matching_reach", "", "r", 0.0, 1e3, false,
+           "Topology matching changes Gamma this far from what is flagged, and farther where that is not enough; 0: "
+           "everywhere."),
+      choice(&P::matching_frames, "matching_frames", {"flagged", "every"},
+             "Topology is matched where something is flagged, or around the whole surface in every frame."),
+      choice(&P::matching_solver, "matching_solver", {"sor", "pcg"},
+             "Solver of topology matching: successive over-relaxation as in the paper, or preconditioned conjugate "
+             "gradients."),
+      real(&P::beta, "beta", "beta", "dx_Gamma", 1e-9, 1.0, false,
+           "The SOR solver of topology matching ends when its largest step is below this."),
+      real(&P::split_length, "split_length", "", "dx_Gamma", 0.5, 1e6, false,
+           "A longer edge is split, if it has also grown by split_growth."),
+      real(&P::split_growth, "split_growth", "", "", 1.0, 1e6, false,
+           "An edge is split only if it is longer than this times the edges that its vertices had at birth."),
+      real(&P::collapse_length, "collapse_length", "", "dx_Gamma", 0.0, 0.25, false,
+           "A shorter edge is collapsed, if it has also shrunk by collapse_shrinkage."),
+      real(&P::collapse_shrinkage, "collapse_shrinkage", "", "", 0.0, 0.5, false,
+           "An edge is collapsed only if it is shorter than this times the edges that its vertices had at birth."),
+      real(&P::fold_angle, "fold_angle", "", "deg", 90.0, 180.0, false,
+           "An edge is collapsed if the normals of its triangles differ by more than this, and by 20 degrees more than "
+           "at birth."),
+      real(&P::sliver_angle, "sliver_angle", "", "deg", 0.0, 30.0, false,
+           "A triangle with a smaller angle is removed, if that angle has also shrunk to half of what it was at "
+           "birth."),
+      real(
+          &P::delta_half_life, "delta_half_life", "", "s", 0.0, 1e9, false,
+          "Time in which the distance delta between mesh and isosurface halves, so that old detail fades; 0 keeps it."),
   };
 }
 

@@ -1,5 +1,6 @@
 #include "particle_surface_tracker/core/triangle_mesh.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -21,6 +22,15 @@ void check_indices(const std::vector<Triangle>& triangles, std::size_t vertex_co
   }
 }
 
+void check_ids(std::vector<std::uint32_t> ids, std::size_t vertex_count) {
+  if (ids.size() != vertex_count) {
+    throw MeshError(fmt::format("the mesh has {} vertices, but there are {} ids", vertex_count, ids.size()));
+  }
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end()) throw MeshError(fmt::format("two vertices have the id {}", *twice));
+}
+
 }  // namespace
 
 TriangleMesh::TriangleMesh() : delta_(attributes_.add(delta_name, 1, {0.0f})) {}
@@ -33,6 +43,14 @@ TriangleMesh::TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> t
   std::iota(ids_.begin(), ids_.end(), 0u);
   next_id_ = static_cast<std::uint32_t>(ids_.size());
   attributes_.resize(positions_.size());
+}
+
+TriangleMesh::TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> triangles,
+                           std::vector<std::uint32_t> ids)
+    : TriangleMesh(std::move(positions), std::move(triangles)) {
+  check_ids(ids, positions_.size());
+  ids_ = std::move(ids);
+  next_id_ = ids_.empty() ? 0u : *std::max_element(ids_.begin(), ids_.end()) + 1;
 }
 
 void TriangleMesh::set_triangles(std::vector<Triangle> triangles) {

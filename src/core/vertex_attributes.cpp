@@ -8,6 +8,18 @@
 
 namespace particle_surface_tracker {
 
+namespace {
+
+float blended(const VertexAttribute& attribute, std::size_t component, const VertexBlend& blend) {
+  double value = blend.empty() ? attribute.initial_value[component] : 0.0;
+  for (const auto& [vertex, weight] : blend) {
+    value += weight * attribute.values[vertex * attribute.components + component];
+  }
+  return static_cast<float>(value);
+}
+
+}  // namespace
+
 std::size_t VertexAttributes::add(const std::string& name, std::size_t components, std::vector<float> initial_value) {
   if (components == 0 || initial_value.size() != components) {
     throw MeshError(
@@ -52,13 +64,17 @@ void VertexAttributes::resize(std::size_t vertex_count) {
 
 void VertexAttributes::append_blend(const VertexBlend& blend) {
   for (VertexAttribute& attribute : attributes_) {
-    for (std::size_t c = 0; c < attribute.components; ++c) {
-      double value = blend.empty() ? attribute.initial_value[c] : 0.0;
-      for (const auto& [vertex, weight] : blend) value += weight * attribute.values[vertex * attribute.components + c];
-      attribute.values.push_back(static_cast<float>(value));
-    }
+    for (std::size_t c = 0; c < attribute.components; ++c) attribute.values.push_back(blended(attribute, c, blend));
   }
   ++vertex_count_;
+}
+
+void VertexAttributes::set_blend(std::uint32_t vertex, const VertexBlend& blend) {
+  for (VertexAttribute& attribute : attributes_) {
+    for (std::size_t c = 0; c < attribute.components; ++c) {
+      attribute.values[vertex * attribute.components + c] = blended(attribute, c, blend);
+    }
+  }
 }
 
 void VertexAttributes::keep(const std::vector<std::uint32_t>& kept) {

@@ -19,7 +19,12 @@ struct MeshSoup {
   std::vector<std::uint32_t> corners;                  ///< Vertices of all polygons, polygon by polygon.
   std::vector<std::size_t> polygon_ends;               ///< One past the last corner of each polygon.
   std::vector<std::array<float, 2>> corner_texcoords;  ///< Of every corner, NaN where there are none; or empty.
+  bool has_indices = true;                             ///< False where every face has vertices of its own.
 };
+
+/// Reads PLY, OFF (known by their content), OBJ or STL (known by their extension).
+/// \throw InputError that names the path if the file is missing, unreadable or damaged.
+MeshSoup read_mesh_soup(const std::string& path);
 
 // Each takes the content of a file.
 // PLY, OFF and OBJ are read here and not by assimp 5.2, which never returns from, or crashes in, truncated PLY and OFF

@@ -38,6 +38,30 @@ Json cpu_times_of(const FrameReport& report) {
   return times;
 }
 
+Json topology_of(const FrameReport::Topology& topology) {
+  return {{"disagreeing_nodes", topology.disagreeing_nodes},
+          {"unknowns", topology.unknowns},
+          {"iterations", topology.iterations},
+          {"enlargements", topology.enlargements},
+          {"changed_nodes", topology.changed_nodes},
+          {"complex", topology.complex_cells},
+          {"tangled", topology.tangled_cells},
+          {"deep", topology.deep_cells},
+          {"marked_by_growth", topology.marked_by_growth},
+          {"remeshed_cells", topology.remeshed_cells},
+          {"removed_components", topology.removed_components},
+          {"new_vertices", topology.new_vertices},
+          {"retries", topology.retries},
+          {"fallbacks", topology.fallbacks}};
+}
+
+Json upkeep_of(const FrameReport::Upkeep& upkeep) {
+  return {{"splits", upkeep.splits},
+          {"collapses", upkeep.collapses},
+          {"flips", upkeep.flips},
+          {"refused", upkeep.refused}};
+}
+
 Json body_of(const FrameReport& report) {
   Json json;
   json["particles"] = report.particles;
@@ -59,6 +83,9 @@ Json body_of(const FrameReport& report) {
   json["particles_gone"] = report.particles_gone;
   json["flagged_cells"] = report.flagged_cells;
   json["unreached_vertices"] = report.unreached_vertices;
+  json["topology"] = topology_of(report.topology);
+  json["upkeep"] = upkeep_of(report.upkeep);
+  if (report.self_intersecting_triangles) json["self_intersecting_triangles"] = *report.self_intersecting_triangles;
   json["warnings"] = report.warnings;
   return json;
 }

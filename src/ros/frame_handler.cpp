@@ -2,23 +2,42 @@
 
 #include <utility>
 
+#include "flat_arrays.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/mesh_refinement.h"
+#include "particle_surface_tracker/core/vertex_normals.h"
 #include "particle_surface_tracker/ros/mesh_conversion.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
+#include "particle_surface_tracker/ros/time_conversion.h"
+#include "vertex_velocities.h"
 
 namespace particle_surface_tracker {
 
-FrameHandler::FrameHandler(FrameHandlerOptions options) : options_(std::move(options)) {
+namespace {
+
+void check(Parameters parameters, bool estimate_spacing) {
   // The other parameters can be judged before the spacing is known.
-  Parameters parameters = options_.parameters;
-  if (options_.estimate_spacing) parameters.particle_spacing = 1.0;
+  if (estimate_spacing) parameters.particle_spacing = 1.0;
   check_parameters(parameters);
 }
 
+}  // namespace
+
+FrameHandler::FrameHandler(FrameHandlerOptions options)
+    : options_(std::move(options)), before_(std::make_unique<VertexPlaces>()) {
+  check(options_.parameters, options_.estimate_spacing);
+}
+
+FrameHandler::~FrameHandler() = default;
+
 FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uint64_t frame_index) {
   const ParticleFrame frame = to_particle_frame(cloud);
-  FrameReport report = started() ? tracker_->advance(frame, frame_index) : start(frame, frame_index);
+  const bool is_first = !started();
+  VertexPlaces places;
+  if (!is_first) places = {tracker_->mesh().ids(), tracker_->mesh().positions()};
+  FrameReport report = is_first ? start(frame, frame_index) : tracker_->advance(frame, frame_index);
+  *before_ = std::move(places);
+  seconds_ = is_first ? 0.0 : 1e-9 * static_cast<double>(frame.stamp_ns - to_nanoseconds(header_.stamp));
   header_ = cloud.header;
   if (triangles_ != tracker_->mesh().triangles()) {
     triangles_ = tracker_->mesh().triangles();
@@ -44,8 +63,40 @@ FrameReport FrameHandler::start(const ParticleFrame& frame, std::uint64_t frame_
   return report;
 }
 
-TrackedMesh FrameHandler::message() const {
-  return to_tracked_mesh(header_, tracker_->mesh(), topology_version_);
+void FrameHandler::reset() {
+  tracker_.reset();
+  *before_ = {};
+  // No triangles: the next mesh gets a new version, for whoever knows those of this one.
+  triangles_.clear();
+}
+
+std::vector<std::string> FrameHandler::set_parameters(const Parameters& parameters) {
+  check(parameters, options_.estimate_spacing);
+  std::vector<std::string> waiting;
+  if (started()) {
+    const Parameters& current = tracker_->parameters();
+    Parameters applicable = parameters;
+    for (const ParameterInfo& info : parameter_table()) {
+      if (!info.needs_reset) continue;
+      const std::string value = get_parameter(current, info.name);
+      const bool is_estimated = options_.estimate_spacing && info.name == "particle_spacing";
+      if (!is_estimated && get_parameter(parameters, info.name) != value) waiting.push_back(info.name);
+      set_parameter(applicable, info.name, value);
+    }
+    tracker_->set_parameters(applicable);
+  }
+  options_.parameters = parameters;
+  return waiting;
+}
+
+TrackedMesh FrameHandler::message(const MessageContent& content) const {
+  const TriangleMesh& mesh = tracker_->mesh();
+  TrackedMesh message = to_tracked_mesh(header_, mesh, topology_version_);
+  if (content.normals) message.normals = flat<float>(vertex_normals(mesh.positions(), mesh.triangles()));
+  // Frames that share a stamp have no time between them.
+  if (content.velocities && seconds_ > 0.0)
+    message.velocities = flat<float>(vertex_velocities(*before_, mesh, seconds_));
+  return message;
 }
 
 }  // namespace particle_surface_tracker

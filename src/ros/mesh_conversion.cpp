@@ -2,20 +2,39 @@
 
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "flat_arrays.h"
+#include "particle_surface_tracker/core/error.h"
+
 namespace particle_surface_tracker {
 namespace {
-
-template <typename Number, typename Triple>
-std::vector<Number> flat(const std::vector<Triple>& triples) {
-  std::vector<Number> numbers;
-  numbers.reserve(3 * triples.size());
-  for (const Triple& triple : triples) numbers.insert(numbers.end(), {triple[0], triple[1], triple[2]});
-  return numbers;
-}
 
 std::vector<float> attribute_values(const TriangleMesh& mesh, const char* name) {
   const std::size_t index = mesh.attributes().find(name);
   return index == VertexAttributes::none ? std::vector<float>() : mesh.attributes()[index].values;
+}
+
+void check_size(const char* name, std::size_t size, std::size_t wanted) {
+  if (size != wanted) {
+    throw InputError(fmt::format("{} of the mesh has {} numbers, wanted {}", name, size, wanted));
+  }
+}
+
+template <typename Triple, typename Number>
+std::vector<Triple> triples(const char* name, const std::vector<Number>& numbers) {
+  check_size(name, numbers.size(), numbers.size() / 3 * 3);
+  std::vector<Triple> result(numbers.size() / 3);
+  for (std::size_t n = 0; n < numbers.size(); ++n) result[n / 3][n % 3] = numbers[n];
+  return result;
+}
+
+// Attributes that may be missing.
+void add_attribute(TriangleMesh& mesh, const char* name, std::size_t components, const std::vector<float>& values) {
+  if (values.empty()) return;
+  check_size(name, values.size(), components * mesh.vertex_count());
+  const std::size_t index = mesh.attributes().add(name, components, std::vector<float>(components, 1.0f));
+  mesh.attributes()[index].values = values;
 }
 
 }  // namespace
@@ -31,6 +50,16 @@ TrackedMesh to_tracked_mesh(const std_msgs::Header& header, const TriangleMesh& 
   message.colors = attribute_values(mesh, TriangleMesh::color_name);
   message.texcoords = attribute_values(mesh, TriangleMesh::texcoord_name);
   return message;
+}
+
+TriangleMesh to_triangle_mesh(const TrackedMesh& message) {
+  TriangleMesh mesh(triples<Vec3f>("vertices", message.vertices), triples<Triangle>("triangles", message.triangles),
+                    message.ids);
+  check_size("delta", message.delta.size(), mesh.vertex_count());
+  mesh.delta() = message.delta;
+  add_attribute(mesh, TriangleMesh::color_name, 4, message.colors);
+  add_attribute(mesh, TriangleMesh::texcoord_name, 2, message.texcoords);
+  return mesh;
 }
 
 }  // namespace particle_surface_tracker

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/core/frame_check.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "particle_surface_tracker/io/report_writer.h"
 #include "particle_surface_tracker/ros/frame_handler.h"
@@ -109,18 +110,26 @@ class OfflineRun {
 
   void track(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud) {
     const bool is_first = !handler_->started();
-    const FrameReport report = handler_->handle(*cloud, frame);
+    FrameReport report = handler_->handle(*cloud, frame);
     if (is_first && options_.estimate_spacing && !options_.quiet) {
       out_ << fmt::format("particle spacing estimated from frame {}: {:.6g} m\n", frame,
                           handler_->tracker().parameters().particle_spacing)
            << std::flush;
     }
     for (const FrameReport::StageTime& time : report.times) times_.add(time.stage, time.seconds);
+    if (options_.check) check(report);
     for (const std::string& warning : report.warnings) messages_.warn(fmt::format("frame {}: {}", frame, warning));
     const Stopwatch writing;
     write(frame, cloud, report);
     writing_seconds_ += writing.seconds();
     ++summary_.tracked;
+  }
+
+  // Before anything is written, so that no broken mesh gets out.
+  void check(FrameReport& report) {
+    const Stopwatch checking;
+    check_frame(handler_->tracker().mesh(), report);
+    times_.add("checking", checking.seconds());
   }
 
   void write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameReport& report) {

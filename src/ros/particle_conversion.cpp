@@ -64,6 +64,10 @@ ParticleFrame to_particle_frame(const sensor_msgs::PointCloud2& cloud) {
   return make_particle_frame(stamp_ns, std::move(positions), std::move(ids), std::move(velocities));
 }
 
+void check_particle_cloud(const sensor_msgs::PointCloud2& cloud) {
+  if (!is_empty(cloud)) check_cloud_layout(cloud);
+}
+
 sensor_msgs::PointCloud2 to_point_cloud(const ParticleFrame& frame, const std::string& frame_id) {
   using sensor_msgs::PointField;
   sensor_msgs::PointCloud2 cloud;

@@ -54,6 +54,12 @@ void add_parameters(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1024}));
 }
 
+void add_check(CLI::App& app, OfflineOptions& options) {
+  app.add_flag("--check", options.check,
+               "Check the mesh of every frame: one that is not closed, manifold and oriented ends the run; "
+               "self-intersecting triangles are reported");
+}
+
 void add_outputs(CLI::App& app, OfflineOptions& options) {
   app.add_option("--out", options.out, "Folder of the tracked meshes, frame_000000.ply and so on; made if missing")
       ->required()
@@ -120,6 +126,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "track_bag " PST_VERSION);
   add_inputs(app, options, raw);
   add_parameters(app, options, raw);
+  add_check(app, options);
   add_outputs(app, options);
   app.footer(list_of_parameters);
   try {

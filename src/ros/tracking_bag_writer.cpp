@@ -52,15 +52,24 @@ TrackingBagWriter::~TrackingBagWriter() {
   }
 }
 
-void TrackingBagWriter::write(const sensor_msgs::PointCloud2ConstPtr& particles, const TrackedMesh& mesh) {
+template <class Message>
+void TrackingBagWriter::append(const std::string& topic, const std_msgs::Header& header, const Message& message) {
   try {
-    bag_->file.write(particle_topic_, record_time(particles->header), particles);
-    bag_->file.write(mesh_topic, record_time(mesh.header), mesh);
+    bag_->file.write(topic, record_time(header), message);
   } catch (const rosbag::BagException& error) {
     abandon();
     fail(path_, fmt::format("{}; what was written is in '{}'", error.what(), temporary_path_));
   }
+}
+
+void TrackingBagWriter::write(const sensor_msgs::PointCloud2ConstPtr& particles) {
+  append(particle_topic_, particles->header, particles);
   bag_->has_frames = true;
+}
+
+void TrackingBagWriter::write(const sensor_msgs::PointCloud2ConstPtr& particles, const TrackedMesh& mesh) {
+  write(particles);
+  append(mesh_topic, mesh.header, mesh);
 }
 
 void TrackingBagWriter::abandon() {

@@ -13,6 +13,7 @@
 #include "particle_surface_tracker/stages/implicit_function.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
 #include "stage_timer.h"
+#include "topology_update.h"
 
 namespace particle_surface_tracker {
 
@@ -76,7 +77,6 @@ void describe(FrameReport& report, const Tracked& tracked, const ParticleFrame& 
     report.max_abs_delta = std::max(report.max_abs_delta, std::abs(static_cast<double>(delta)));
   }
   report.flagged_vertices = tracked.detection.flagged_vertices.size();
-  report.flagged_cells = tracked.detection.flagged_cells.size();
   report.unreached_vertices = tracked.detection.unreached_vertices;
   const auto& ids = tracked.mesh.ids();
   report.original_vertices_alive = static_cast<std::size_t>(
@@ -94,6 +94,7 @@ void require_particles(const ParticleFrame& frame) {
 struct Tracker::State {
   Parameters parameters;
   std::unique_ptr<Tracked> tracked;
+  UpkeepMemory upkeep_memory;
 
   double r() const { return parameters.particle_spacing; }
   double smallest_reach() const { return parameters.tau * r(); }
@@ -208,6 +209,13 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     state_->advect_vertices(*next, frame, report, timer);
     next->surface = make_implicit_surface(frame, state_->parameters, timer);
     state_->project_vertices(*next, timer);
+    report.flagged_cells = next->detection.flagged_cells.size();
+    if (state_->parameters.topology == TopologyMode::kMatch) {
+      const double new_delta = update_topology(next->mesh, *next->surface, next->detection, state_->parameters,
+                                               state_->upkeep_memory, report, timer);
+      next->band = std::max(next->band, new_delta);
+    }
+    decay_delta(next->mesh, 1e-9 * static_cast<double>(frame.stamp_ns - next->particles.stamp_ns), state_->parameters);
     next->particles = frame;
     next->particles_frame = frame_index;
   }

@@ -25,6 +25,14 @@ TEST(TriangleMesh, IdsCountUpAndDeltaIsZero) {
   EXPECT_EQ(mesh.next_id(), 3u);
 }
 
+TEST(TriangleMesh, IdsCanBeGiven) {
+  TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {7, 40, 3});
+  EXPECT_THAT(mesh.ids(), ElementsAre(7, 40, 3));
+  EXPECT_EQ(mesh.next_id(), 41u);
+  EXPECT_THROW(TriangleMesh({{0, 0, 0}, {1, 0, 0}}, {}, {7}), MeshError);
+  EXPECT_THROW(TriangleMesh({{0, 0, 0}, {1, 0, 0}}, {}, {7, 7}), MeshError);
+}
+
 TEST(TriangleMesh, ATriangleMustNameVerticesThatAreThere) {
   EXPECT_THROW(TriangleMesh({{0, 0, 0}}, {{0, 0, 1}}), MeshError);
   TriangleMesh mesh = two_triangles();

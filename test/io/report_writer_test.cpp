@@ -43,6 +43,13 @@ FrameReport example() {
   return report;
 }
 
+TEST(ReportWriter, TheShareOfSelfIntersectionsIsThereIfTheMeshWasChecked) {
+  FrameReport report = example();
+  EXPECT_FALSE(Json::parse(report_line(report)).contains("self_intersecting_triangles"));
+  report.self_intersecting_triangles = 0.25;
+  EXPECT_EQ(Json::parse(report_line(report))["self_intersecting_triangles"], 0.25);
+}
+
 TEST(ReportWriter, LineHoldsEverythingInOrder) {
   const std::string line = report_line(example());
   EXPECT_EQ(line.find('\n'), std::string::npos);

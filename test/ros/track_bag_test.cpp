@@ -135,6 +135,21 @@ TEST_F(TrackBag, TracksEveryFrameAndWritesEverything) {
   EXPECT_EQ(rosbag::View(bag, rosbag::TypeQuery("particle_surface_tracker/TrackedMesh")).size(), 4u);
 }
 
+TEST_F(TrackBag, ChecksEveryFrameIfAsked) {
+  write_bag(3);
+  // A second ball crosses the first.
+  write_ply(folder_ / "ball.ply",
+            joined({make_sphere(Vec3d::Zero(), 1.0, 3), make_sphere(Vec3d(0.05, 0.02, 0.01), 0.95, 3)}));
+  const Outcome outcome = run_standard("--check --report @/report.jsonl");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("checking"), std::string::npos) << outcome.out;
+  ASSERT_EQ(report().size(), 3u);
+  for (const Json& line : report()) {
+    EXPECT_GT(line["self_intersecting_triangles"], 0.0);
+    EXPECT_LE(line["self_intersecting_triangles"], 1.0);
+  }
+}
+
 TEST_F(TrackBag, RangeOfFramesKeepsTheirNumbers) {
   write_bag(6);
   write_ply(folder_ / "ball.ply", make_sphere(Vec3d(2 * r / 16, 0, 0), 1.0, 3));

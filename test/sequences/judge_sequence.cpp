@@ -1,6 +1,7 @@
 // Tracks a mesh through a bag and judges the mesh of every frame independently of the tracker.
 
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "sequences/frame_judgement.h"
 #include "sequences/sequence_data.h"
+#include "sequences/topology_figures.h"
 
 namespace pst = particle_surface_tracker;
 
@@ -27,6 +29,7 @@ struct Options {
   std::optional<std::size_t> last;
   std::size_t stride = 1;
   std::string csv;
+  bool topology = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -38,6 +41,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--last", options.last, "Index of the last frame");
   app.add_option("--stride", options.stride, "Count crossing triangles in every N-th frame (0: never)");
   app.add_option("--csv", options.csv, "File for the figures");
+  app.add_flag("--topology", options.topology,
+               "Judge splitting and merging instead: topology, nesting, self-intersections, against the limits of the "
+               "sequence that the mesh is named after");
 }
 
 void apply_settings(Options& options) {
@@ -48,11 +54,35 @@ void apply_settings(Options& options) {
   }
 }
 
-void judge(const Options& options) {
-  const pst::TriangleMesh mesh = pst::read_initial_mesh(options.mesh).mesh;
+std::vector<pst::ParticleFrame> read_frames(const Options& options) {
   std::optional<std::size_t> count;
   if (options.last) count = *options.last + 1;
-  const std::vector<pst::ParticleFrame> frames = pst::test::read_particle_bag(options.bag, options.topic, count);
+  return pst::test::read_particle_bag(options.bag, options.topic, count);
+}
+
+void judge_topology(const Options& options) {
+  const pst::TriangleMesh mesh = pst::read_initial_mesh(options.mesh).mesh;
+  const std::vector<pst::ParticleFrame> frames = read_frames(options);
+  std::ofstream csv(options.csv);
+  csv << pst::test::topology_csv_header() << "\n";
+  std::cout << pst::test::topology_header() << std::endl;
+
+  pst::Tracker tracker(options.parameters);
+  pst::test::TopologyFigureTaker taker(tracker);
+  std::vector<pst::test::TopologyFigures> figures;
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const pst::FrameReport report = n == 0 ? tracker.start(mesh, frames[n]) : tracker.advance(frames[n], n);
+    figures.push_back(taker.take(frames[n], report));
+    std::cout << pst::test::topology_row(figures.back(), figures.front()) << std::endl;
+    csv << pst::test::topology_csv_row(figures.back(), figures.front()) << std::endl;
+  }
+  const std::string name = std::filesystem::path(options.mesh).stem().string();
+  std::cout << pst::test::summary_of(name, figures, pst::test::limits_for(name)) << std::flush;
+}
+
+void judge(const Options& options) {
+  const pst::TriangleMesh mesh = pst::read_initial_mesh(options.mesh).mesh;
+  const std::vector<pst::ParticleFrame> frames = read_frames(options);
   std::ofstream csv(options.csv);
   csv << pst::test::judgement_csv_header() << "\n";
   std::cout << pst::test::judgement_header() << std::endl;
@@ -79,7 +109,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     apply_settings(options);
-    judge(options);
+    options.topology ? judge_topology(options) : judge(options);
   } catch (const std::exception& error) {
     std::cerr << "judge_sequence: " << error.what() << "\n";
     return 1;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <numeric>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -13,27 +13,14 @@
 #include <CGAL/Surface_mesh.h>
 #include <Eigen/Geometry>
 
+#include "sequences/disjoint_sets.h"
+
 namespace particle_surface_tracker::test {
 
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
-
-/// Sets of numbers that are merged, and asked for a common representative.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  std::uint32_t find(std::uint32_t a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void merge(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// An edge as a triangle runs along it: its lower and upper vertex, and whether it runs upwards.
 struct DirectedEdge {
@@ -147,6 +134,18 @@ double enclosed_volume(const std::vector<Vec3f>& positions, const std::vector<Tr
     sixfold += (positions[t[0]].cast<double>() - origin).dot(area_normal(positions, t));
   }
   return sixfold / 6.0;
+}
+
+std::vector<Triangle> welded_by_position(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {
+  std::map<std::array<float, 3>, std::uint32_t> first;
+  std::vector<Triangle> welded = triangles;
+  for (Triangle& t : welded) {
+    for (std::uint32_t& v : t) {
+      const Vec3f& p = positions[v];
+      v = first.try_emplace({p.x(), p.y(), p.z()}, v).first->second;
+    }
+  }
+  return welded;
 }
 
 std::size_t count_clusters(std::size_t vertex_count, const std::vector<Triangle>& triangles,

@@ -41,6 +41,10 @@ std::size_t count_inverted_triangles(const std::vector<Vec3f>& positions, const 
 /// Signed volume of a closed mesh [m³].
 double enclosed_volume(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles);
 
+/// The triangles with vertices of the same position replaced by one of them, as by a reader that joins vertices.
+/// \param positions must be finite.
+std::vector<Triangle> welded_by_position(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles);
+
 /// Number of connected pieces that the vertices `members` form along the edges between them.
 std::size_t count_clusters(std::size_t vertex_count, const std::vector<Triangle>& triangles,
                            const std::vector<std::uint32_t>& members);

@@ -119,18 +119,34 @@ SolidJudge::SolidJudge(const std::vector<Vec3f>& positions, const std::vector<Tr
   columns_ = std::make_unique<Columns>(tree_->triangles);
 }
 
+SolidJudge::SolidJudge(SolidJudge&&) noexcept = default;
 SolidJudge::~SolidJudge() = default;
 
-int SolidJudge::winding_number(const Vec3f& point) const {
+std::vector<SolidJudge::Crossing> SolidJudge::crossings_above(const Vec3f& point) const {
   const Point3 q(point.x(), point.y(), point.z());
-  if (!columns_->box.contains(Eigen::Vector2d(q.x(), q.y()))) return 0;
+  if (!columns_->box.contains(Eigen::Vector2d(q.x(), q.y()))) return {};
   const Eigen::Array2i place = columns_->column_of(q.x(), q.y());
   const std::size_t column = columns_->index_of(place.x(), place.y());
-  int winding = 0;
+  std::vector<Crossing> crossings;
   for (std::size_t n = columns_->begin[column]; n < columns_->begin[column + 1]; ++n) {
-    winding += crossing_above(tree_->triangles[columns_->triangles[n]], q);
+    const std::uint32_t triangle = columns_->triangles[n];
+    const int sign = crossing_above(tree_->triangles[triangle], q);
+    if (sign != 0) crossings.push_back({triangle, sign});
   }
+  return crossings;
+}
+
+int SolidJudge::winding_number(const Vec3f& point) const {
+  int winding = 0;
+  for (const Crossing& crossing : crossings_above(point)) winding += crossing.sign;
   return winding;
+}
+
+SolidJudge::Nearest SolidJudge::nearest(const Vec3f& point) const {
+  const Point3 q(point.x(), point.y(), point.z());
+  const auto [place, primitive] = tree_->tree.closest_point_and_primitive(q);
+  return {std::sqrt(CGAL::squared_distance(q, place)),
+          static_cast<std::uint32_t>(primitive - tree_->triangles.begin())};
 }
 
 double SolidJudge::distance(const Vec3d& point) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,36 @@ struct FrameReport {
   std::size_t flagged_cells = 0;            ///< Cells of Γ flagged for topology matching.
   std::size_t unreached_vertices = 0;       ///< Of the flagged: those with no φ = 0 within reach.
   std::size_t original_vertices_alive = 0;  ///< Vertices of the first mesh that still live.
+
+  /// Topology matching and re-meshing (Secs. 6, 7). All 0 in a frame without a change of topology.
+  struct Topology {
+    std::size_t disagreeing_nodes = 0;   ///< Nodes of Γ where mesh and φ disagree about inside and outside.
+    std::size_t unknowns = 0;            ///< Nodes of Γ that were solved for.
+    std::size_t iterations = 0;          ///< Of the solver.
+    std::size_t enlargements = 0;        ///< How often the region that was solved for turned out too small.
+    std::size_t changed_nodes = 0;       ///< Nodes of Γ that changed sides.
+    std::size_t complex_cells = 0;       ///< Cells that the mesh passes through in more than one simple sheet.
+    std::size_t tangled_cells = 0;       ///< Of these, those re-meshed because sheets overlap.
+    std::size_t deep_cells = 0;          ///< Cells re-meshed because Γ sees no surface where the mesh has one.
+    std::size_t marked_by_growth = 0;    ///< Cells re-meshed so that the cut around the others is simple.
+    std::size_t remeshed_cells = 0;      ///< All cells that were re-meshed.
+    std::size_t removed_components = 0;  ///< Pieces too small for Γ that φ does not confirm.
+    std::size_t new_vertices = 0;        ///< Made by re-meshing.
+    std::size_t retries = 0;             ///< How often the re-meshed region had to grow because it could not be filled.
+    std::size_t fallbacks = 0;           ///< Of these, how often a whole component, or everything, was made anew.
+  };
+  Topology topology;
+
+  /// Mesh upkeep (Sec. 8).
+  struct Upkeep {
+    std::size_t splits = 0;
+    std::size_t collapses = 0;  ///< Of short and of folded edges, and of slivers.
+    std::size_t flips = 0;
+    std::size_t refused = 0;    ///< Beyond a limit, but nothing could be done without harm.
+  };
+  Upkeep upkeep;
+  /// Share of the triangles that intersect others, in [0, 1]; none where the mesh was not checked.
+  std::optional<double> self_intersecting_triangles;
 
   /// What one stage took.
   struct StageTime {

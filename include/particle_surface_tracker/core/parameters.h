@@ -17,6 +17,30 @@ enum class ProjectionMethod {
   kOneStep   ///< Equation 1 of the paper, which the two-step projection improves on; for comparison.
 };
 
+/// How the Poisson equation of topology matching is solved (Sec. 6.1).
+enum class MatchingSolver {
+  kSor,  ///< Successive over-relaxation, as in the paper.
+  kPcg   ///< Conjugate gradients, preconditioned with an incomplete Cholesky factorisation.
+};
+
+/// What is taken for a change of topology (Sec. 5.3).
+enum class DetectionMethod {
+  kTau,         ///< A projection that moves a vertex by more than τ, as in the paper.
+  kTauAndSigns  ///< Also nodes where mesh and isosurface disagree about inside and outside.
+};
+
+/// When topology matching looks at the surface (Sec. 9.3).
+enum class MatchingFrames {
+  kFlagged,  ///< Where and when something is flagged.
+  kEvery     ///< Everywhere in every frame.
+};
+
+/// Whether the mesh follows the topology of the particles (Secs. 6 to 8).
+enum class TopologyMode {
+  kKeep,  ///< Its connectivity never changes: what would split or merge is put back and reported (Sec. 5.3).
+  kMatch  ///< It splits and merges, and its triangles are kept in shape.
+};
+
 /// Everything a user can set. Lengths are multiples of the particle spacing r unless a field says otherwise; the symbol
 /// of the paper stands first. Names, units, ranges and texts for users are in parameter_table().
 struct Parameters {
@@ -50,7 +74,23 @@ struct Parameters {
   double tau = 0.5;                     // τ: a projection that moves a vertex farther is a topological change [r].
 
   // Voxelisation Γ of the mesh and topology matching (Secs. 5.3, 6).
+  TopologyMode topology = TopologyMode::kKeep;
   double dx_gamma = 0.5;  // Δx_Γ: cell size of Γ [r].
+  DetectionMethod detection = DetectionMethod::kTauAndSigns;
+  double matching_reach = 2.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
+  MatchingFrames matching_frames = MatchingFrames::kFlagged;
+  MatchingSolver matching_solver = MatchingSolver::kSor;
+  double beta = 0.01;  // β: the SOR solver ends when no step is longer [Δx_Γ].
+
+  // Mesh upkeep (Sec. 8): limits that must all be passed, against neighbours and against the mesh at its birth.
+  double split_length = 1.5;        // A longer edge is split [Δx_Γ],
+  double split_growth = 2.0;        // ... if it is longer than this times the edges at birth.
+  double collapse_length = 0.2;     // A shorter edge is collapsed [Δx_Γ],
+  double collapse_shrinkage = 0.3;  // ... if it is shorter than this times the edges at birth.
+  double fold_angle = 160.0;        // An edge whose triangles' normals differ by more is collapsed [deg].
+  double sliver_angle = 10.0;       // A triangle with a smaller angle is removed [deg].
+
+  double delta_half_life = 0.0;  // Time in which δ halves [s]; 0: it never changes.
 };
 
 /// What a user needs to know about one parameter; the one source for command line, YAML, dynamic_reconfigure and docs.

@@ -23,6 +23,10 @@ class TriangleMesh {
   /// \throw MeshError if a triangle names a vertex that is not there.
   TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> triangles);
 
+  /// As above, with the ids that the vertices had before.
+  /// \throw MeshError, also if there is not one id per vertex, or one occurs twice.
+  TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> triangles, std::vector<std::uint32_t> ids);
+
   std::size_t vertex_count() const { return positions_.size(); }
   std::size_t triangle_count() const { return triangles_.size(); }
 

@@ -45,6 +45,9 @@ class VertexAttributes {
   /// Appends one vertex whose values are a weighted mean of those of others.
   void append_blend(const VertexBlend& blend);
 
+  /// Replaces the values of one vertex by a weighted mean of those of others, of which it may be one itself.
+  void set_blend(std::uint32_t vertex, const VertexBlend& blend);
+
   /// Keeps the vertices `kept` (strictly increasing indices), in that order, and drops all others.
   void keep(const std::vector<std::uint32_t>& kept);
 

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <particle_surface_tracker/TrackedMesh.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -19,18 +22,36 @@ struct FrameHandlerOptions {
   bool refine_mesh = false;          ///< Split edges of the mesh that are longer than r.
 };
 
+/// What a message carries beside the mesh itself.
+struct MessageContent {
+  bool normals = false;
+  bool velocities = false;
+};
+
+/// Where vertices were, by id.
+struct VertexPlaces;
+
 /// Turns clouds of particles into tracked meshes: the one piece between messages and tracker, whether the messages come
 /// from a topic or from a bag.
 class FrameHandler {
  public:
   /// \throw ParameterError as check_parameters().
   explicit FrameHandler(FrameHandlerOptions options);
+  ~FrameHandler();
 
   /// The first cloud starts the tracker, every other one carries the mesh on. A cloud that throws changes nothing.
   /// \throw InputError, ParticleError as to_particle_frame().
   /// \throw ParticleError if the first cloud is empty.
   /// \throw TrackingError as Tracker::start() and Tracker::advance().
   FrameReport handle(const sensor_msgs::PointCloud2& cloud, std::uint64_t frame_index);
+
+  /// Forgets what was tracked: the next cloud starts the tracker anew, with the mesh of the options.
+  void reset();
+
+  /// Takes over new parameters. Those that cannot change while a mesh is being tracked wait for reset().
+  /// \return the names of those that wait.
+  /// \throw ParameterError as check_parameters(); nothing changes then.
+  std::vector<std::string> set_parameters(const Parameters& parameters);
 
   bool started() const { return tracker_.has_value(); }
 
@@ -40,7 +61,7 @@ class FrameHandler {
 
   /// The tracked mesh as a message, stamped and framed as the last cloud.
   /// \pre started().
-  TrackedMesh message() const;
+  TrackedMesh message(const MessageContent& content = {}) const;
 
  private:
   FrameReport start(const ParticleFrame& frame, std::uint64_t frame_index);
@@ -48,7 +69,9 @@ class FrameHandler {
   FrameHandlerOptions options_;
   std::optional<Tracker> tracker_;
   std_msgs::Header header_;
-  std::vector<Triangle> triangles_;  // Of the last frame, to see when they change.
+  double seconds_ = 0.0;                 // Between the last frame and the one before; 0 if there is none.
+  std::unique_ptr<VertexPlaces> before_;  // Of the frame before the last.
+  std::vector<Triangle> triangles_;      // Of the last frame, to see when they change.
   std::uint32_t topology_version_ = 0;
 };
 

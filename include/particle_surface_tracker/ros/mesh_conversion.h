@@ -10,4 +10,9 @@ namespace particle_surface_tracker {
 /// The message that carries a tracked mesh, with its colours and texture coordinates where it has them.
 TrackedMesh to_tracked_mesh(const std_msgs::Header& header, const TriangleMesh& mesh, std::uint32_t topology_version);
 
+/// The mesh that a message carries, with what to_tracked_mesh() puts into it.
+/// \throw InputError if the arrays of the message do not fit each other.
+/// \throw MeshError as TriangleMesh.
+TriangleMesh to_triangle_mesh(const TrackedMesh& message);
+
 }  // namespace particle_surface_tracker

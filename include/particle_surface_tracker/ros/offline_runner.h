@@ -23,6 +23,7 @@ struct OfflineOptions {
   std::uint64_t first = 0;             ///< Index of the first frame in the bag.
   std::optional<std::uint64_t> last;   ///< Index of the last frame; none: that of the bag.
   std::optional<std::size_t> threads;  ///< At most this many; none: all there are.
+  bool check = false;                  ///< Check the mesh of every frame.
 
   std::string out;  ///< Folder of the mesh sequence.
   MeshFormat format = MeshFormat::kPly;
@@ -47,7 +48,7 @@ struct OfflineSummary {
 /// \param err receives warnings and progress.
 /// \throw ParameterError if an option does not fit the bag, or a parameter is invalid.
 /// \throw InputError, MeshError, ParticleError if the bag, mesh or first frame cannot be used.
-/// \throw TrackingError if a frame cannot be tracked.
+/// \throw TrackingError if a frame cannot be tracked, or fails the check that was asked for.
 /// \throw OutputError if something cannot be written.
 OfflineSummary run_offline(const OfflineOptions& options, const std::atomic<bool>& stop, std::ostream& out,
                            std::ostream& err);

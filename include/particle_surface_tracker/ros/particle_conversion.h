@@ -15,6 +15,10 @@ namespace particle_surface_tracker {
 /// \throw ParticleError as make_particle_frame().
 ParticleFrame to_particle_frame(const sensor_msgs::PointCloud2& cloud);
 
+/// Checks that to_particle_frame() can read a cloud, without looking at the particles.
+/// \throw InputError as to_particle_frame().
+void check_particle_cloud(const sensor_msgs::PointCloud2& cloud);
+
 /// Makes a cloud that to_particle_frame() reads back exactly; velocities only where the frame has them.
 sensor_msgs::PointCloud2 to_point_cloud(const ParticleFrame& frame, const std::string& frame_id);
 

@@ -8,8 +8,8 @@
 
 namespace particle_surface_tracker {
 
-/// Writes a bag of particles and the mesh tracked with them. Record time is the stamp of the message, so that a player
-/// can be paced by it.
+/// Writes a bag of particles, and of the mesh tracked with them. Record time is the stamp of the message, so that a
+/// player can be paced by it.
 ///
 /// The bag is written under a temporary name beside its own and takes its name when it is closed, complete and indexed.
 class TrackingBagWriter {
@@ -23,6 +23,10 @@ class TrackingBagWriter {
   /// Closes the bag as close() does, but cannot tell whether that fails. A bag without a frame is removed.
   ~TrackingBagWriter();
 
+  /// Writes particles without a mesh.
+  /// \throw OutputError if the message cannot be written.
+  void write(const sensor_msgs::PointCloud2ConstPtr& particles);
+
   /// \throw OutputError if the messages cannot be written.
   void write(const sensor_msgs::PointCloud2ConstPtr& particles, const TrackedMesh& mesh);
 
@@ -31,6 +35,9 @@ class TrackingBagWriter {
 
  private:
   struct Bag;
+
+  template <class Message>
+  void append(const std::string& topic, const std_msgs::Header& header, const Message& message);
 
   // Lets go of a bag that could not be written: its destructor would try again and throw, which ends the program.
   void abandon();

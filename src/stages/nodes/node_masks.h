@@ -28,11 +28,13 @@ class NodeMasks {
 
   void insert(const openvdb::Coord& node);
 
+  /// The mask of a leaf, which is made where it is not there yet. Valid until another leaf is made.
+  LeafWords& words_at(const openvdb::Coord& origin);
+
   /// Adds to every node those up to `down` below and up to `up` above it along each axis.
   void dilate(int down, int up);
 
  private:
-  LeafWords& words_at(const openvdb::Coord& origin);
   void dilate_by_one(int axis, int direction);
 
   std::vector<Leaf> leaves_;

@@ -1,0 +1,90 @@
+#include "ros/live/frame_queue.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace particle_surface_tracker {
+
+FrameQueue::FrameQueue(std::size_t limit, QueuePolicy policy) : limit_(limit), policy_(policy) {}
+
+void FrameQueue::push(ReceivedFrame frame) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (frame.reception == Reception::kUsable) {
+      if (policy_ == QueuePolicy::kLatest) {
+        for (ReceivedFrame& waiting : frames_) {
+          if (waiting.reception != Reception::kUsable) continue;
+          waiting.reception = Reception::kReplaced;
+          waiting.reason = "a newer frame arrived before this one was tracked (queue_policy is latest)";
+          waiting.cloud.reset();
+        }
+        clouds_ = 0;
+      }
+      // What waits comes before what arrives: the first frame is the one that the mesh belongs to.
+      if (clouds_ >= limit_) {
+        frame.reception = Reception::kDropped;
+        frame.reason = fmt::format("the queue is full (queue_size is {})", limit_);
+        frame.cloud.reset();
+      } else {
+        ++clouds_;
+      }
+    }
+    frames_.push_back(std::move(frame));
+  }
+  changed_.notify_one();
+}
+
+void FrameQueue::push(Command command) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    commands_.push_back(std::move(command));
+  }
+  changed_.notify_one();
+}
+
+void FrameQueue::close() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    closed_ = true;
+  }
+  changed_.notify_all();
+}
+
+bool FrameQueue::wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until) {
+  const auto ready = [this] { return closed_ || !commands_.empty() || !frames_.empty(); };
+  if (until) return changed_.wait_until(lock, *until, ready);
+  changed_.wait(lock, ready);
+  return true;
+}
+
+std::optional<ReceivedFrame> FrameQueue::pop(std::optional<Time> until) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (wait(lock, until) && !closed_) {
+    if (!commands_.empty()) {
+      const Command command = std::move(commands_.front());
+      commands_.pop_front();
+      lock.unlock();
+      command();
+      lock.lock();
+      continue;
+    }
+    ReceivedFrame frame = std::move(frames_.front());
+    frames_.pop_front();
+    if (frame.reception == Reception::kUsable) --clouds_;
+    return frame;
+  }
+  return std::nullopt;
+}
+
+bool FrameQueue::closed() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return closed_;
+}
+
+std::size_t FrameQueue::size() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return clouds_;
+}
+
+}  // namespace particle_surface_tracker

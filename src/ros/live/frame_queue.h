@@ -1,0 +1,73 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <sensor_msgs/PointCloud2.h>
+
+namespace particle_surface_tracker {
+
+/// What happens to frames that arrive faster than they are tracked.
+enum class QueuePolicy {
+  kAll,    ///< They wait; where the queue is full, the one that arrives is dropped.
+  kLatest  ///< Only the newest waits.
+};
+
+/// What came of a message before the tracker has seen it.
+enum class Reception { kUsable, kInvalid, kDropped, kReplaced };
+
+/// A message that arrived.
+struct ReceivedFrame {
+  std_msgs::Header header;
+  sensor_msgs::PointCloud2ConstPtr cloud;  ///< Null unless it is usable.
+  Reception reception = Reception::kUsable;
+  std::string reason;  ///< Why it is not usable.
+  std::chrono::steady_clock::time_point arrival = std::chrono::steady_clock::now();
+};
+
+/// Hands frames, and commands that go first, from the callbacks to the one thread that tracks. Frames that are not going
+/// to be tracked keep their place in the row, without their data, so that every frame is answered in order.
+class FrameQueue {
+ public:
+  using Command = std::function<void()>;
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// \param limit clouds that may wait, at least 1.
+  FrameQueue(std::size_t limit, QueuePolicy policy);
+
+  void push(ReceivedFrame frame);
+  void push(Command command);
+
+  /// Ends the waiting of pop(), now and for ever.
+  void close();
+
+  /// The next frame; runs the commands that were given before.
+  /// \param until gives up at this time; without it, never.
+  /// \return nothing if the queue was closed or the time is over.
+  std::optional<ReceivedFrame> pop(std::optional<Time> until);
+
+  bool closed() const;
+
+  /// Clouds that wait.
+  std::size_t size() const;
+
+ private:
+  bool wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until);
+
+  const std::size_t limit_;
+  const QueuePolicy policy_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<ReceivedFrame> frames_;
+  std::deque<Command> commands_;
+  std::size_t clouds_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace particle_surface_tracker

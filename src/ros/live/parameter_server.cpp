@@ -1,0 +1,110 @@
+#include "ros/live/parameter_server.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "particle_surface_tracker/core/error.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+using Description = TrackerConfig::AbstractParamDescription;
+using dynamic_reconfigure::ConfigTools;
+
+std::string value_of(const Description& description, const TrackerConfig& config) {
+  boost::any value;
+  description.getValue(config, value);
+  if (description.type == "double") return fmt::format("{}", boost::any_cast<double>(value));
+  if (description.type == "int") return fmt::format("{}", boost::any_cast<int>(value));
+  return boost::any_cast<std::string>(value);
+}
+
+// Sets one value of a config, from text that is known to be good.
+void set_value(const Description& description, const std::string& text, TrackerConfig& config) {
+  dynamic_reconfigure::Config message;
+  if (description.type == "double") {
+    ConfigTools::appendParameter(message, description.name, std::stod(text));
+  } else if (description.type == "int") {
+    ConfigTools::appendParameter(message, description.name, std::stoi(text));
+  } else {
+    ConfigTools::appendParameter(message, description.name, text);
+  }
+  description.fromMessage(message, config);
+}
+
+// A config that has one of the bounds of every number.
+TrackerConfig bounds(double ParameterInfo::*bound) {
+  TrackerConfig config = TrackerConfig::__getDefault__();
+  for (const auto& description : TrackerConfig::__getParamDescriptions__()) {
+    for (const ParameterInfo& info : parameter_table()) {
+      if (info.name != description->name || info.type == ParameterInfo::Type::kChoice) continue;
+      const bool is_real = info.type == ParameterInfo::Type::kReal;
+      set_value(*description, is_real ? fmt::format("{}", info.*bound) : fmt::format("{:.0f}", info.*bound), config);
+    }
+  }
+  return config;
+}
+
+}  // namespace
+
+TrackerConfig to_config(const Parameters& parameters) {
+  TrackerConfig config = TrackerConfig::__getDefault__();
+  for (const auto& description : TrackerConfig::__getParamDescriptions__()) {
+    set_value(*description, get_parameter(parameters, description->name), config);
+  }
+  return config;
+}
+
+void apply_config(const TrackerConfig& config, Parameters& parameters) {
+  Parameters changed = parameters;
+  for (const auto& description : TrackerConfig::__getParamDescriptions__()) {
+    set_parameter(changed, description->name, value_of(*description, config));
+  }
+  Parameters checked = changed;
+  // The spacing may still have to be estimated; it is not to be judged here.
+  checked.particle_spacing = 1.0;
+  check_parameters(checked);
+  parameters = changed;
+}
+
+ParameterServer::ParameterServer(const ros::NodeHandle& private_handle, const Parameters& initial, Handler handler)
+    : name_(private_handle.getNamespace()), in_force_(initial), handler_(std::move(handler)) {
+  // The server begins with what it finds there.
+  to_config(initial).__toServer__(private_handle);
+  server_ = std::make_unique<dynamic_reconfigure::Server<TrackerConfig>>(mutex_, private_handle);
+  server_->setConfigMin(bounds(&ParameterInfo::minimum));
+  server_->setConfigMax(bounds(&ParameterInfo::maximum));
+  server_->setConfigDefault(to_config(Parameters()));
+  server_->setCallback([this](TrackerConfig& config, std::uint32_t) { change(config); });
+}
+
+ParameterServer::~ParameterServer() {
+  server_->clearCallback();
+}
+
+void ParameterServer::show(const Parameters& parameters) {
+  const boost::recursive_mutex::scoped_lock lock(mutex_);
+  in_force_ = parameters;
+  server_->updateConfig(to_config(parameters));
+}
+
+void ParameterServer::change(TrackerConfig& config) {
+  Parameters wanted = in_force_;
+  try {
+    apply_config(config, wanted);
+  } catch (const ParameterError& error) {
+    ROS_WARN_STREAM(name_ << ": refused: " << error.what() << "; all parameters stay as they were");
+    config = to_config(in_force_);
+    return;
+  }
+  const bool is_new = std::any_of(parameter_table().begin(), parameter_table().end(), [&](const ParameterInfo& info) {
+    return get_parameter(wanted, info.name) != get_parameter(in_force_, info.name);
+  });
+  if (!is_new) return;
+  in_force_ = wanted;
+  handler_(wanted);
+}
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,131 @@
+#include "detail_cover.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <openvdb/math/Proximity.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "matching_region.h"
+#include "node_numbers.h"
+#include "triangle_extent.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+constexpr int kWidth = 8;
+
+openvdb::Vec3d to_openvdb(const Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// The lattice places between which a node may be for a triangle to explain it.
+openvdb::CoordBBox nodes_around(const std::array<openvdb::Vec3d, 3>& corners, double reach, double h) {
+  openvdb::CoordBBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [lower, upper] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
+    box.min()[axis] = static_cast<int>(std::ceil((lower - reach) / h));
+    box.max()[axis] = static_cast<int>(std::floor((upper + reach) / h));
+  }
+  return box;
+}
+
+/// Where a set has nodes, in blocks of 8³ nodes: most triangles are nowhere near.
+class NearBlocks {
+ public:
+  explicit NearBlocks(const NodeMasks& set, double h) : blocks_per_meter_(1.0 / (kWidth * h)) {
+    for (const NodeMasks::Leaf& leaf : set.leaves()) {
+      if (!is_zero(leaf.words)) blocks_.insert(block_of_leaf(leaf.origin));
+    }
+    blocks_.dilate(1, 1);
+  }
+
+  /// False if no node of the set is within the width of a block of a position.
+  bool may_be_near(const Vec3f& position) const {
+    const Vec3d place = position.cast<double>() * blocks_per_meter_;
+    const openvdb::Coord block(floor_of(place.x()), floor_of(place.y()), floor_of(place.z()));
+    return contains(blocks_, block);
+  }
+
+ private:
+  static openvdb::Coord block_of_leaf(const openvdb::Coord& origin) {
+    return {origin.x() >> 3, origin.y() >> 3, origin.z() >> 3};
+  }
+
+  /// std::floor is a function call on plain x86-64.
+  static int floor_of(double x) {
+    const int truncated = static_cast<int>(x);
+    return truncated - (x < truncated ? 1 : 0);
+  }
+
+  double blocks_per_meter_;
+  NodeMasks blocks_;
+};
+
+/// Calls visit(node) for the nodes of a set in a box.
+template <typename Visit>
+void for_each_node_in(const NodeMasks& set, const openvdb::CoordBBox& box, Visit&& visit) {
+  const openvdb::Coord first = box.min() & ~(kWidth - 1);
+  for (int x = first.x(); x <= box.max().x(); x += kWidth) {
+    for (int y = first.y(); y <= box.max().y(); y += kWidth) {
+      for (int z = first.z(); z <= box.max().z(); z += kWidth) {
+        const std::uint32_t number = set.find({x, y, z});
+        if (number == LeafIndex::none) continue;
+        const NodeMasks::Leaf& leaf = set.leaves()[number];
+        for (int i = 0; i < kWidth; ++i) {
+          for_each_bit(leaf.words[i], [&](int bit) {
+            const openvdb::Coord node = leaf.origin.offsetBy(i, bit >> 3, bit & 7);
+            if (box.isInside(node)) visit(node);
+          });
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<openvdb::Coord> nodes_beyond_detail(const NodeMasks& set, const MeshLattice& lattice,
+                                                const std::vector<float>& delta, double slack) {
+  const NodeNumbers numbers(set);
+  const double h = lattice.h();
+  openvdb::CoordBBox all;
+  for (const openvdb::Coord& node : numbers.nodes()) all.expand(node);
+  // Threads only ever set a mark, so their order does not matter.
+  std::vector<std::atomic<char>> is_explained(numbers.nodes().size());
+  const NearBlocks blocks(set, h);
+  const auto explain = [&](const Triangle& triangle) {
+    const double reach = largest_delta(triangle, delta) + slack;
+    const double extent = longest_edge(lattice.positions(), triangle);
+    if (reach + extent < kWidth * h && !blocks.may_be_near(lattice.positions()[triangle[0]])) return;
+    const std::array<openvdb::Vec3d, 3> corners = {to_openvdb(lattice.positions()[triangle[0]]),
+                                                   to_openvdb(lattice.positions()[triangle[1]]),
+                                                   to_openvdb(lattice.positions()[triangle[2]])};
+    openvdb::CoordBBox box = nodes_around(corners, reach, h);
+    box.intersect(all);
+    if (box.empty()) return;
+    for_each_node_in(set, box, [&](const openvdb::Coord& node) {
+      const openvdb::Vec3d place(lattice.plane(node.x()), lattice.plane(node.y()), lattice.plane(node.z()));
+      openvdb::Vec3d unused;
+      const openvdb::Vec3d closest =
+          openvdb::math::closestPointOnTriangleToPoint(corners[0], corners[1], corners[2], place, unused);
+      if ((closest - place).lengthSqr() <= reach * reach) {
+        is_explained[numbers.find(node)].store(1, std::memory_order_relaxed);
+      }
+    });
+  };
+  const std::vector<Triangle>& triangles = lattice.triangles();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, triangles.size(), 1024), [&](const auto& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t) explain(triangles[t]);
+  });
+  std::vector<openvdb::Coord> unexplained;
+  for (std::size_t n = 0; n < is_explained.size(); ++n) {
+    if (is_explained[n].load(std::memory_order_relaxed) == 0) unexplained.push_back(numbers.nodes()[n]);
+  }
+  return unexplained;
+}
+
+}  // namespace particle_surface_tracker

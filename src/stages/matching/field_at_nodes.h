@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <openvdb/Types.h>
+
+#include "stages/nodes/node_masks.h"
+#include "stages/distance_field/surface_cells.h"
+#include "line_signs.h"
+#include "particle_surface_tracker/core/implicit_surface.h"
+
+namespace particle_surface_tracker {
+
+/// φ at nodes of Γ, by linear interpolation between the nodes of φ's own lattice (Alg. 1). Its sign is right anywhere.
+class FieldAtNodes {
+ public:
+  /// \param surface must live as long as this.
+  /// \param h Δx_Γ [m].
+  FieldAtNodes(const ImplicitSurface& surface, double h);
+
+  /// \param reach beyond this φ is ±reach [m].
+  /// \return φ [m], one per node.
+  std::vector<float> distances(const std::vector<openvdb::Coord>& nodes, double reach) const;
+
+ private:
+  const ImplicitSurface& surface_;
+  double h_;
+  LineSigns signs_;
+  SurfaceCells cells_;
+};
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <openvdb/Types.h>
+
+#include "stages/nodes/node_masks.h"
+#include "line_signs.h"
+
+namespace particle_surface_tracker {
+
+/// The nodes at some cells: the eight corners of each.
+NodeMasks nodes_at_cells(const std::vector<openvdb::Coord>& cells);
+
+/// Adds the nodes of one set to another.
+void unite(NodeMasks& set, const NodeMasks& other);
+
+/// The nodes of a set that have a node of the other side among their 26 neighbours, in it or not.
+NodeMasks nodes_next_to_other_side(const NodeMasks& set, const LineSigns& signs);
+
+/// The nodes of a region that topology matching looks at.
+struct MatchingNodes {
+  NodeMasks unknown;  ///< To be solved for.
+  NodeMasks fixed;    ///< Keep Γ.
+};
+
+/// Fixed are those that are not flagged, around which the mesh winds 0 or 1 times, and that have a node of the other
+/// side among their 26 neighbours (Sec. 6; a mesh is then within h√3); the others are unknown.
+MatchingNodes classify_nodes(const NodeMasks& region, const NodeMasks& flagged, const LineSigns& mesh);
+
+/// True if a node belongs to the outermost layer of a region or is next to it.
+bool is_near_rim(const NodeMasks& region, const openvdb::Coord& node);
+
+/// True if a node is in a set.
+bool contains(const NodeMasks& set, const openvdb::Coord& node);
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,225 @@
+#include "particle_surface_tracker/stages/remeshing.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cell_complexity.h"
+#include "cell_filling.h"
+#include "face_paths.h"
+#include "front_growth.h"
+#include "gamma_nodes.h"
+#include "lattice_parts.h"
+#include "mesh_cutting.h"
+#include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/core/mesh_measures.h"
+#include "particle_surface_tracker/core/mesh_validation.h"
+#include "patch.h"
+#include "patch_places.h"
+#include "small_components.h"
+#include "triangle_cuts.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+using namespace remeshing;
+using openvdb::Coord;
+
+/// How often the marked cells are widened before whole components are made anew, and these before everything is.
+constexpr std::size_t kWidenings = 3;
+constexpr std::size_t kComponentRounds = 2;
+/// Cutting marks single cells; many rounds are cheap.
+constexpr std::size_t kMostRounds = 40;
+
+class Remesher {
+ public:
+  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request)
+      : mesh_(mesh),
+        lattice_(lattice),
+        request_(request),
+        gamma_(lattice, request.nodes, request.gamma),
+        cuts_(lattice),
+        tracer_(cuts_),
+        growth_(marked_, tracer_) {}
+
+  RemeshingReport run() {
+    small_ = find_small_components(cuts_, request_.is_liquid);
+    report_.kept_components = small_.kept_count;
+    report_.removed_components = small_.removed_count;
+    mark_initial_cells();
+    if (marked_.cells().empty() && small_.removed.empty()) return report_;
+    while (!try_once()) {
+      if (!widen()) {
+        report_.gave_up = true;
+        return report_;
+      }
+    }
+    return report_;
+  }
+
+ private:
+  void mark_initial_cells() {
+    for (const Coord& cell : request_.flagged_cells) marked_.insert(cell);
+    report_.flagged_cells = marked_.cells().size();
+    for (const Coord& node : gamma_.changed()) {
+      for (int corner = 0; corner < kCellCorners; ++corner) marked_.insert(node - corner_of({0, 0, 0}, corner));
+    }
+    report_.changed_nodes = gamma_.changed().size();
+    const CellComplexity complexity = classify_cells(gamma_);
+    for (const Coord& cell : complexity.tangled.cells()) marked_.insert(cell);
+    report_.complex_cells = complexity.complex.cells().size();
+    report_.tangled_cells = complexity.tangled.cells().size();
+    for (const Coord& cell : find_deep_cells(cuts_, complexity.near_sign_change, small_)) {
+      marked_.insert(cell);
+      ++report_.deep_cells;
+    }
+    initial_cells_ = marked_.cells().size();
+  }
+
+  /// Cuts, fills and checks with the cells that are marked now.
+  /// \return false if that led to nothing; the mesh is as it was then.
+  bool try_once() {
+    growth_.run();
+    Patch patch(mesh_.vertex_count());
+    trouble_ = cut_mesh(cuts_, marked_, patch);
+    if (!trouble_.empty() || !fill_cells(marked_, gamma_, tracer_, patch)) return false;
+    drop_small_components(patch);
+    place_filling(gamma_, patch);
+    smooth_filling(lattice_.h(), patch);
+    keep_places_apart(mesh_.positions(), lattice_.h(), patch);
+    blend_filling(lattice_, patch);
+
+    TriangleMesh result = mesh_;
+    apply(patch, result);
+    if (!is_sound(result)) return false;
+    mesh_ = std::move(result);
+    report_.removed_triangles = patch.removed.size();
+    report_.new_triangles = patch.triangles.size();
+    report_.new_vertices = patch.vertices.size();
+    report_.remeshed_cells = marked_.cells().size();
+    report_.marked_by_growth = marked_.cells().size() - initial_cells_;
+    return true;
+  }
+
+  void drop_small_components(Patch& patch) const {
+    const auto middle = static_cast<std::ptrdiff_t>(patch.removed.size());
+    patch.removed.insert(patch.removed.end(), small_.removed.begin(), small_.removed.end());
+    std::inplace_merge(patch.removed.begin(), patch.removed.begin() + middle, patch.removed.end());
+    patch.removed.erase(std::unique(patch.removed.begin(), patch.removed.end()), patch.removed.end());
+  }
+
+  static void apply(const Patch& patch, TriangleMesh& result) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(result.triangle_count() - patch.removed.size() + patch.triangles.size());
+    auto removed = patch.removed.begin();
+    for (std::uint32_t t = 0; t < result.triangle_count(); ++t) {
+      if (removed != patch.removed.end() && *removed == t) {
+        ++removed;
+      } else {
+        triangles.push_back(result.triangles()[t]);
+      }
+    }
+    triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
+    for (const PatchVertex& vertex : patch.vertices) result.append_vertex(vertex.position.cast<float>(), vertex.blend);
+    result.set_triangles(std::move(triangles));
+    result.remove_unused_vertices();
+  }
+
+  static bool is_sound(const TriangleMesh& mesh) {
+    return mesh.triangles().empty() || describe_mesh_defects(mesh.positions(), mesh.triangles()).empty();
+  }
+
+  /// Marks more cells after an attempt that failed: those that cannot be cut, then those around all that are marked,
+  /// then whole components, then everything.
+  /// \return false if there is nothing left to try.
+  bool widen() {
+    if (everything_) return false;
+    ++report_.retries;
+    const std::size_t before = marked_.cells().size();
+    if (report_.retries > kMostRounds) {
+      ++report_.fallbacks;
+      mark_components(/*all*/ true);
+    } else if (!trouble_.empty()) {
+      for (const Coord& cell : trouble_) marked_.insert(cell);
+    } else if (widenings_ < kWidenings) {
+      ++widenings_;
+      mark_neighbors();
+    } else {
+      ++report_.fallbacks;
+      mark_components(/*all*/ report_.fallbacks > kComponentRounds);
+    }
+    if (marked_.cells().size() == before && !everything_) {
+      ++report_.fallbacks;
+      mark_components(/*all*/ true);
+    }
+    return true;
+  }
+
+  void mark_neighbors() {
+    const std::size_t count = marked_.cells().size();
+    for (std::size_t n = 0; n < count; ++n) {
+      const Coord cell = marked_.cells()[n];
+      for (int x = -1; x <= 1; ++x) {
+        for (int y = -1; y <= 1; ++y) {
+          for (int z = -1; z <= 1; ++z) marked_.insert(cell.offsetBy(x, y, z));
+        }
+      }
+    }
+  }
+
+  /// Marks the cells of all components of the mesh that are in marked cells, or of all there are.
+  void mark_components(bool all) {
+    const std::vector<Triangle>& triangles = lattice_.triangles();
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> component = vertex_components(mesh_.vertex_count(), triangles, count);
+    std::vector<char> is_affected(count, all ? 1 : 0);
+    for (const Coord& cell : marked_.cells()) {
+      for (const std::uint32_t t : lattice_.triangles_in_cell(cell)) is_affected[component[triangles[t][0]]] = 1;
+    }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (is_affected[component[triangles[t][0]]] == 0) continue;
+      const TriangleCut& cut = cuts_.of(t);
+      for (const Coord& cell : cut.cells) marked_.insert(cell);
+      for (const TriangleCut::Segment& segment : cut.segments) {
+        marked_.insert(segment.face.lower_cell());
+        marked_.insert(segment.face.upper_cell());
+      }
+    }
+    everything_ = all;
+  }
+
+  TriangleMesh& mesh_;
+  const MeshLattice& lattice_;
+  const RemeshingRequest& request_;
+  GammaNodes gamma_;
+  TriangleCuts cuts_;
+  FaceTracer tracer_;
+  CellSet marked_;
+  FrontGrowth growth_;
+  SmallComponents small_;
+  RemeshingReport report_;
+  std::vector<Coord> trouble_;
+  std::size_t initial_cells_ = 0;
+  std::size_t widenings_ = 0;
+  bool everything_ = false;
+};
+
+}  // namespace
+
+RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request) {
+  if (request.nodes.size() != request.gamma.size()) {
+    throw MeshError(fmt::format("re-meshing was given {} nodes of Γ but {} values; each node needs one",
+                                request.nodes.size(), request.gamma.size()));
+  }
+  if (lattice.positions().size() != mesh.vertex_count() || lattice.triangles().size() != mesh.triangle_count()) {
+    throw MeshError(fmt::format(
+        "re-meshing was given the lattice of a mesh of {} vertices and {} triangles for one of "
+        "{} and {}; make the lattice anew after every change of the mesh",
+        lattice.positions().size(), lattice.triangles().size(), mesh.vertex_count(), mesh.triangle_count()));
+  }
+  return Remesher(mesh, lattice, request).run();
+}
+
+}  // namespace particle_surface_tracker

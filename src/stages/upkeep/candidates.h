@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "half_edges.h"
+#include "particle_surface_tracker/core/triangle_mesh.h"
+#include "tolerances.h"
+
+namespace particle_surface_tracker {
+
+/// What calls for an operation, in the order in which it is dealt with.
+enum class Ailment : std::uint8_t { kLongEdge, kShortEdge, kFoldedEdge, kSliver };
+
+/// An edge that calls for an operation, or the shortest edge of a triangle that does.
+struct Candidate {
+  Ailment ailment;
+  double urgency;           ///< Of one ailment, larger ones come first.
+  std::uint32_t low, high;  ///< Vertices of the edge when this was found; they settle ties.
+  std::uint32_t half_edge;
+
+  /// Whether the other comes first.
+  bool operator<(const Candidate& other) const;
+};
+
+/// A mesh whose connectivity may be ahead of what TriangleMesh has stored.
+struct SurfaceView {
+  const std::vector<Vec3f>& positions;
+  const std::vector<Triangle>& triangles;
+  const std::vector<std::uint32_t>& twins;
+
+  Corners corners(std::uint32_t triangle) const;
+  std::uint32_t shortest_edge(std::uint32_t triangle) const;
+  std::uint32_t longest_edge(std::uint32_t triangle) const;
+};
+
+/// Which half-edges of a triangle stand for their edges.
+enum class Sides : std::uint8_t { kBoth, kLowerHalfEdge };
+
+/// Calls visit(ailment, urgency, half_edge) for everything that ails a triangle and its edges.
+template <typename Visit>
+void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, Sides sides, const Tolerances& tolerances,
+                      Visit&& visit) {
+  const Triangle& vertices = surface.triangles[triangle];
+  const Corners corners = surface.corners(triangle);
+  const Vec3d normal = area_normal(corners);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t h = 3 * triangle + k;
+    if (sides == Sides::kLowerHalfEdge && surface.twins[h] < h) continue;
+    const std::uint32_t a = vertices[k], b = vertices[(k + 1) % 3];
+    const double squared = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
+    if (tolerances.is_long(a, b, squared)) visit(Ailment::kLongEdge, squared, h);
+    if (tolerances.is_short(a, b, squared)) visit(Ailment::kShortEdge, -squared, h);
+    const Vec3d normal_beyond = area_normal(surface.corners(surface.twins[h] / 3));
+    if (tolerances.is_folded(a, b, normal, normal_beyond)) {
+      visit(Ailment::kFoldedEdge, fold_between(normal, normal_beyond), h);
+    }
+  }
+  const double sine = sine_of_smallest_angle(corners);
+  if (tolerances.is_sliver(vertices, sine)) visit(Ailment::kSliver, -sine, surface.shortest_edge(triangle));
+}
+
+}  // namespace particle_surface_tracker

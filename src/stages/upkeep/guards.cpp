@@ -1,0 +1,180 @@
+#include "guards.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "triangle_overlap.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+double six_volumes(const Corners& corners, const Vec3d& origin) {
+  return (corners[0] - origin).dot((corners[1] - origin).cross(corners[2] - origin));
+}
+
+double smallest_replaced_sine(const EditableSurface& surface, const PlannedPatch& patch) {
+  double smallest = 1.0;
+  for (const std::uint32_t t : patch.replaced) {
+    smallest = std::min(smallest, sine_of_smallest_angle(surface.corners(t)));
+  }
+  return smallest;
+}
+
+double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch& patch) {
+  double largest = 0.0;
+  for (const std::uint32_t t : patch.replaced) {
+    const Vec3d normal = area_normal(surface.corners(t));
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      largest = std::max(largest, fold_between(normal, area_normal(surface.corners(surface.twin(h) / 3))));
+    }
+  }
+  return largest;
+}
+
+/// The normal beyond edge k of a triangle of the patch: of another triangle of the patch, or of one around it.
+Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle, std::size_t k) {
+  const std::uint32_t from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3];
+  for (const PatchTriangle& other : patch.triangles) {
+    for (std::size_t m = 0; m < 3; ++m) {
+      if (other.vertices[m] == to && other.vertices[(m + 1) % 3] == from) return area_normal(other.corners);
+    }
+  }
+  return area_normal(surface.corners(triangle.beyond[k] / 3));
+}
+
+}  // namespace
+
+bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edge) {
+  std::vector<std::uint32_t> neighbors;
+  surface.for_each_outgoing(surface.start(half_edge), [&](std::uint32_t h) { neighbors.push_back(surface.end(h)); });
+  std::sort(neighbors.begin(), neighbors.end());
+  int common = 0;
+  surface.for_each_outgoing(surface.end(half_edge), [&](std::uint32_t h) {
+    if (std::binary_search(neighbors.begin(), neighbors.end(), surface.end(h))) ++common;
+  });
+  return common == 2;
+}
+
+bool has_no_duplicate_triangle(const PlannedPatch& patch) {
+  for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
+    for (std::size_t j = i + 1; j < patch.triangles.size(); ++j) {
+      const Triangle& a = patch.triangles[i].vertices;
+      const Triangle& b = patch.triangles[j].vertices;
+      if (std::is_permutation(a.begin(), a.end(), b.begin())) return false;
+    }
+  }
+  return true;
+}
+
+bool has_no_degenerate_triangle(const PlannedPatch& patch) {
+  return std::all_of(patch.triangles.begin(), patch.triangles.end(), [](const PatchTriangle& triangle) {
+    const Corners& c = triangle.corners;
+    return c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && area_normal(c).squaredNorm() > 0.0;
+  });
+}
+
+bool has_no_long_edge(const PlannedPatch& patch, const Tolerances& tolerances) {
+  for (const PatchTriangle& triangle : patch.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      const double limit = tolerances.longest_edge(triangle.vertices[k], triangle.vertices[next]);
+      if ((triangle.corners[next] - triangle.corners[k]).squaredNorm() > limit * limit) return false;
+    }
+  }
+  return true;
+}
+
+bool keeps_volume(const EditableSurface& surface, const PlannedPatch& patch, double limit) {
+  const Vec3d origin = surface.corners(patch.replaced.front())[0];
+  double change = 0.0, double_area = 0.0;
+  for (const PatchTriangle& triangle : patch.triangles) change += six_volumes(triangle.corners, origin);
+  for (const std::uint32_t t : patch.replaced) {
+    const Corners corners = surface.corners(t);
+    change -= six_volumes(corners, origin);
+    double_area += area_normal(corners).norm();
+  }
+  return std::abs(change) / 6.0 <= limit * double_area / 2.0;
+}
+
+bool keeps_normals(const PlannedPatch& patch) {
+  return std::all_of(patch.triangles.begin(), patch.triangles.end(), [](const PatchTriangle& triangle) {
+    return triangle.old_normal.squaredNorm() == 0.0 || area_normal(triangle.corners).dot(triangle.old_normal) > 0.0;
+  });
+}
+
+bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, const Tolerances& tolerances) {
+  const double before = smallest_replaced_sine(surface, patch);
+  return std::all_of(patch.triangles.begin(), patch.triangles.end(), [&](const PatchTriangle& triangle) {
+    const double sine = sine_of_smallest_angle(triangle.corners);
+    return sine >= before || !tolerances.is_sliver(triangle.vertices, sine);
+  });
+}
+
+bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold) {
+  const double limit = std::max(largest_fold, largest_replaced_fold(surface, patch));
+  for (const PatchTriangle& triangle : patch.triangles) {
+    const Vec3d normal = area_normal(triangle.corners);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (fold_between(normal, normal_beyond(surface, patch, triangle, k)) > limit) return false;
+    }
+  }
+  return true;
+}
+
+namespace {
+
+/// Whether two triangles have more in common than the corner that they share by index. Two that share an edge are not
+/// looked at: that is a matter of folds.
+bool cross(const Triangle& first, const Corners& at_first, const Triangle& second, const Corners& at_second) {
+  std::size_t shared = 0, in_first = 0, in_second = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (first[i] != second[j]) continue;
+      ++shared;
+      in_first = i;
+      in_second = j;
+    }
+  }
+  if (shared == 0) return triangles_touch(at_first, at_second);
+  if (shared > 1) return false;
+  const auto rotated = [](const Corners& c, std::size_t by) {
+    return Corners{c[by], c[(by + 1) % 3], c[(by + 2) % 3]};
+  };
+  return triangles_cross_at_shared_corner(rotated(at_first, in_first), rotated(at_second, in_second));
+}
+
+bool crosses_itself(const std::vector<PatchTriangle>& triangles) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t j = i + 1; j < triangles.size(); ++j) {
+      if (cross(triangles[i].vertices, triangles[i].corners, triangles[j].vertices, triangles[j].corners)) return true;
+    }
+  }
+  return false;
+}
+
+bool crosses_others(const EditableSurface& surface, const std::vector<PatchTriangle>& triangles,
+                    const std::vector<std::uint32_t>& replaced, const Surroundings& surroundings) {
+  return std::any_of(triangles.begin(), triangles.end(), [&](const PatchTriangle& triangle) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3d& corner : triangle.corners) box.extend(corner);
+    return surroundings.find_near(box, [&](std::uint32_t t) {
+      return std::find(replaced.begin(), replaced.end(), t) == replaced.end() &&
+             cross(triangle.vertices, triangle.corners, surface.triangle(t), surface.corners(t));
+    });
+  });
+}
+
+}  // namespace
+
+bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings) {
+  if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, patch.replaced, surroundings)) {
+    return true;
+  }
+  std::vector<PatchTriangle> before;
+  for (const std::uint32_t t : patch.replaced) before.push_back({surface.triangle(t), surface.corners(t), {}, {}});
+  return crosses_itself(before) || crosses_others(surface, before, patch.replaced, surroundings);
+}
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,58 @@
+#include "surroundings.h"
+
+#include <cmath>
+
+namespace particle_surface_tracker {
+
+Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell) : surface_(surface) {
+  double size = smallest_cell;
+  for (double& inverse : inverse_cell_size_) {
+    inverse = 1.0 / size;
+    size *= 2.0;
+  }
+  std::size_t slots = 1024;
+  while (slots < surface.triangle_slots()) slots *= 2;
+  heads_.assign(slots, kEnd);
+  entries_.reserve(surface.triangle_slots() + surface.triangle_slots() / 8);
+  for (std::uint32_t t = 0; t < surface.triangle_slots(); ++t) enter(t);
+}
+
+void Surroundings::enter(std::uint32_t triangle) {
+  const Eigen::AlignedBox3d box = box_of(triangle);
+  const double extent = box.sizes().maxCoeff();
+  std::size_t level = 0;
+  while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
+  level_in_use_[level] = true;
+  const std::size_t slot = slot_of(cell_of(box.min(), level), level);
+  entries_.push_back({triangle, heads_[slot]});
+  heads_[slot] = static_cast<std::uint32_t>(entries_.size() - 1);
+}
+
+bool Surroundings::has_more_cells_than_entries(const Cell& first, const Cell& last) const {
+  double cells = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) cells *= static_cast<double>(last[axis] - first[axis]) + 2.0;
+  return cells > static_cast<double>(entries_.size());
+}
+
+Eigen::AlignedBox3d Surroundings::box_of(std::uint32_t triangle) const {
+  Eigen::AlignedBox3d box;
+  for (const Vec3d& corner : surface_.corners(triangle)) box.extend(corner);
+  return box;
+}
+
+Surroundings::Cell Surroundings::cell_of(const Vec3d& position, std::size_t level) const {
+  const Vec3d scaled = position * inverse_cell_size_[level];
+  return {static_cast<std::int64_t>(std::floor(scaled.x())), static_cast<std::int64_t>(std::floor(scaled.y())),
+          static_cast<std::int64_t>(std::floor(scaled.z()))};
+}
+
+std::size_t Surroundings::slot_of(const Cell& cell, std::size_t level) const {
+  auto hash = static_cast<std::uint64_t>(level);
+  for (const std::int64_t coordinate : cell) {
+    hash = (hash ^ static_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 32;
+  }
+  return hash & (heads_.size() - 1);
+}
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "editable_surface.h"
+
+namespace particle_surface_tracker {
+
+/// Finds the triangles near a place. Lattices of cells that double in size, each triangle in one cell of the lattice
+/// whose cells are just larger than it: entering one is a single step however large it is, and a search
+/// looks at a few cells of each lattice in use.
+class Surroundings {
+ public:
+  /// Enters all triangles of a surface.
+  /// \param smallest_cell side of the finest cells [m].
+  Surroundings(const EditableSurface& surface, double smallest_cell);
+
+  /// Enters a triangle that is new or has changed. What was entered before may stay: a search looks at triangles as
+  /// they are now.
+  void enter(std::uint32_t triangle);
+
+  /// Calls visit(triangle) for triangles whose box meets `box`, some maybe twice, until it returns true.
+  /// \return whether it did.
+  template <typename Visit>
+  bool find_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+    for (std::size_t level = 0; level < kLevels; ++level) {
+      if (!level_in_use_[level]) continue;
+      // A triangle reaches from its cell into the next at most.
+      const Cell first = cell_of(box.min(), level), last = cell_of(box.max(), level);
+      if (has_more_cells_than_entries(first, last)) return find_anywhere(box, visit);
+      for (std::int64_t x = first[0] - 1; x <= last[0]; ++x) {
+        for (std::int64_t y = first[1] - 1; y <= last[1]; ++y) {
+          for (std::int64_t z = first[2] - 1; z <= last[2]; ++z) {
+            for (std::uint32_t e = heads_[slot_of({x, y, z}, level)]; e != kEnd; e = entries_[e].next) {
+              if (meets(entries_[e].triangle, box) && visit(entries_[e].triangle)) return true;
+            }
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  static constexpr std::size_t kLevels = 40;
+  static constexpr std::uint32_t kEnd = 0xffffffffU;
+
+  struct Entry {
+    std::uint32_t triangle;
+    std::uint32_t next;
+  };
+
+  template <typename Visit>
+  bool find_anywhere(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+    for (std::uint32_t t = 0; t < surface_.triangle_slots(); ++t) {
+      if (meets(t, box) && visit(t)) return true;
+    }
+    return false;
+  }
+
+  bool meets(std::uint32_t triangle, const Eigen::AlignedBox3d& box) const {
+    return surface_.is_alive(triangle) && box.intersects(box_of(triangle));
+  }
+
+  bool has_more_cells_than_entries(const Cell& first, const Cell& last) const;
+  Eigen::AlignedBox3d box_of(std::uint32_t triangle) const;
+  Cell cell_of(const Vec3d& position, std::size_t level) const;
+  std::size_t slot_of(const Cell& cell, std::size_t level) const;
+
+  const EditableSurface& surface_;
+  std::array<double, kLevels> inverse_cell_size_{};
+  std::array<bool, kLevels> level_in_use_{};
+  std::vector<std::uint32_t> heads_;  // of chains of entries, one per slot of a hash table
+  std::vector<Entry> entries_;
+};
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "particle_surface_tracker/core/frame_report.h"
+#include "particle_surface_tracker/core/implicit_surface.h"
+#include "particle_surface_tracker/core/parameters.h"
+#include "particle_surface_tracker/core/triangle_mesh.h"
+#include "particle_surface_tracker/stages/detection.h"
+#include "particle_surface_tracker/stages/upkeep.h"
+#include "stage_timer.h"
+
+namespace particle_surface_tracker {
+
+/// Stages 3 to 5 of a frame: matches the topology of the projected mesh to that of φ (Sec. 6), re-meshes where it
+/// changed (Sec. 7), keeps the triangles in shape (Sec. 8), and measures δ of every vertex that is new or has moved.
+/// \param detection what the projection flagged; the nodes where mesh and φ disagree are found here.
+/// \param memory kept from frame to frame.
+/// \param report receives the counts, and a warning where something could not be done.
+/// \return the largest |δ| of those vertices [m].
+double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
+                     const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer);
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,84 @@
+#include "ros/live/frame_queue.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
+
+namespace particle_surface_tracker {
+namespace {
+
+ReceivedFrame frame(std::uint32_t number, Reception reception = Reception::kUsable) {
+  ReceivedFrame received;
+  received.header.seq = number;
+  received.reception = reception;
+  if (reception == Reception::kUsable) received.cloud = boost::make_shared<const sensor_msgs::PointCloud2>();
+  return received;
+}
+
+FrameQueue::Time now() {
+  return std::chrono::steady_clock::now();
+}
+
+TEST(FrameQueue, KeepsTheOrderAndDropsWhatArrivesWhenItIsFull) {
+  FrameQueue queue(2, QueuePolicy::kAll);
+  for (std::uint32_t n = 0; n < 4; ++n) queue.push(frame(n));
+  EXPECT_EQ(queue.size(), 2u);
+  for (std::uint32_t n = 0; n < 4; ++n) {
+    const auto received = queue.pop(now());
+    ASSERT_TRUE(received);
+    EXPECT_EQ(received->header.seq, n);
+    EXPECT_EQ(received->reception, n < 2 ? Reception::kUsable : Reception::kDropped);
+    EXPECT_EQ(received->cloud != nullptr, n < 2);
+    EXPECT_EQ(received->reason.empty(), n < 2);
+  }
+  EXPECT_EQ(queue.size(), 0u);
+  queue.push(frame(4));
+  EXPECT_EQ(queue.pop(now())->reception, Reception::kUsable);
+}
+
+TEST(FrameQueue, FramesWithoutACloudTakeNoPlace) {
+  FrameQueue queue(1, QueuePolicy::kAll);
+  queue.push(frame(0, Reception::kInvalid));
+  queue.push(frame(1));
+  EXPECT_EQ(queue.pop(now())->reception, Reception::kInvalid);
+  EXPECT_EQ(queue.pop(now())->reception, Reception::kUsable);
+}
+
+TEST(FrameQueue, LatestReplacesWhatWaits) {
+  FrameQueue queue(5, QueuePolicy::kLatest);
+  queue.push(frame(0, Reception::kInvalid));
+  for (std::uint32_t n = 1; n < 4; ++n) queue.push(frame(n));
+  EXPECT_EQ(queue.size(), 1u);
+  const Reception wanted[] = {Reception::kInvalid, Reception::kReplaced, Reception::kReplaced, Reception::kUsable};
+  for (const Reception reception : wanted) EXPECT_EQ(queue.pop(now())->reception, reception);
+}
+
+TEST(FrameQueue, CommandsGoFirst) {
+  FrameQueue queue(5, QueuePolicy::kAll);
+  queue.push(frame(0));
+  int runs = 0;
+  queue.push(FrameQueue::Command([&runs] { ++runs; }));
+  queue.push(FrameQueue::Command([&runs] { ++runs; }));
+  EXPECT_EQ(queue.pop(now())->header.seq, 0u);
+  EXPECT_EQ(runs, 2);
+}
+
+TEST(FrameQueue, GivesUpWhenItsTimeIsOver) {
+  FrameQueue queue(1, QueuePolicy::kAll);
+  EXPECT_FALSE(queue.pop(now() + std::chrono::milliseconds(2)));
+  EXPECT_FALSE(queue.closed());
+}
+
+TEST(FrameQueue, ClosingEndsTheWaiting) {
+  FrameQueue queue(1, QueuePolicy::kAll);
+  std::thread waiting([&queue] { EXPECT_FALSE(queue.pop(std::nullopt)); });
+  queue.close();
+  waiting.join();
+  queue.push(frame(0));
+  EXPECT_FALSE(queue.pop(std::nullopt));
+  EXPECT_TRUE(queue.closed());
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker

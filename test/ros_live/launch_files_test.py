@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Loads every launch file as roslaunch does, without starting anything: what it names is there, every argument is
+described, and what a user types reaches the nodes.
+
+Usage: launch_files_test.py PROJECT
+"""
+
+import os
+import pathlib
+import sys
+import unittest
+import xml.etree.ElementTree as xml
+
+import roslaunch.config
+import roslaunch.node_args
+import roslaunch.xmlloader
+import rospkg
+
+PROJECT = pathlib.Path(sys.argv.pop())
+FILES = sorted(PROJECT.glob("launch/*.launch")) + sorted(PROJECT.glob("launch/*.launch.xml"))
+# Programs that are for looking only; a machine without a screen need not have them.
+VIEWERS = {"rviz", "tf2_ros"}
+
+
+def load(path, *arguments):
+    loader = roslaunch.xmlloader.XmlLoader(resolve_anon=False)
+    config = roslaunch.config.ROSLaunchConfig()
+    loader.load(str(path), config, argv=list(arguments), verbose=False)
+    return config
+
+
+def required_arguments(path):
+    return ["%s:=%s" % (arg.get("name"), PROJECT / "README.md") for arg in xml.parse(path).getroot().iter("arg")
+            if arg.get("doc") and arg.get("default") is None and arg.get("value") is None]
+
+
+def parameters(config):
+    return {name: parameter.value for name, parameter in config.params.items()}
+
+
+class LaunchFiles(unittest.TestCase):
+    def test_there_are_some(self):
+        names = {path.name for path in FILES}
+        self.assertTrue({"live.launch", "replay.launch"} <= names, names)
+
+    def test_every_argument_is_described(self):
+        for path in FILES:
+            for arg in xml.parse(path).getroot().findall("arg"):
+                self.assertTrue(arg.get("doc") or arg.get("value"), "%s: %s" % (path.name, arg.get("name")))
+
+    def test_every_file_loads_and_its_programs_are_there(self):
+        pack = rospkg.RosPack()
+        for path in FILES:
+            config = load(path, *required_arguments(path))
+            self.assertFalse(config.config_errors, path.name)
+            for node in config.nodes:
+                if node.package in VIEWERS and node.package not in pack.list():
+                    continue
+                command = roslaunch.node_args.create_local_process_args(node, config.machines[""])
+                self.assertTrue(os.access(command[0], os.X_OK), "%s: %s" % (path.name, command[0]))
+
+    def test_files_that_are_named_are_there(self):
+        for path in FILES:
+            for node in load(path, *required_arguments(path)).nodes:
+                words = node.args.split()
+                for word in words:
+                    if word.startswith(str(PROJECT)):
+                        self.assertTrue(os.path.exists(word), "%s: %s" % (path.name, word))
+
+    def test_arguments_reach_the_nodelet(self):
+        config = load(PROJECT / "launch/live.launch", "mesh:=/data/a.ply", "spacing:=0.03", "config:=/data/p.yaml",
+                      "queue_size:=7", "queue_policy:=latest", "refine_initial:=true", "particles:=/flow/particles")
+        values = parameters(config)
+        self.assertEqual(values["/tracker/mesh"], "/data/a.ply")
+        self.assertEqual(values["/tracker/spacing"], "0.03")
+        self.assertEqual(values["/tracker/config"], "/data/p.yaml")
+        self.assertEqual(values["/tracker/queue_size"], 7)
+        self.assertEqual(values["/tracker/queue_policy"], "latest")
+        self.assertEqual(values["/tracker/refine_initial"], True)
+        nodelet = next(node for node in config.nodes if node.name == "tracker")
+        self.assertEqual(nodelet.args.split(), ["load", "particle_surface_tracker/TrackerNodelet", "tracker_manager"])
+        self.assertIn(["particles", "/flow/particles"], [list(pair) for pair in nodelet.remap_args])
+
+    def test_a_manager_can_be_shared(self):
+        config = load(PROJECT / "launch/live.launch", "manager:=simulation_manager", "rviz:=false")
+        self.assertEqual([node.name for node in config.nodes], ["tracker"])
+        self.assertEqual(config.nodes[0].args.split()[-1], "simulation_manager")
+
+    def test_replay_is_paced_and_waits(self):
+        config = load(PROJECT / "launch/replay.launch", "bag:=/data/a.bag", "rviz:=false")
+        player = next(node for node in config.nodes if node.name == "player")
+        for word in ("--wait-for-subscribers", "--rate-control-topic /tracker/status", "/data/a.bag"):
+            self.assertIn(word, player.args)
+        self.assertNotIn("--loop", player.args)
+        self.assertEqual({node.name for node in config.nodes}, {"tracker_manager", "tracker", "player"})
+
+    def test_scenes_with_y_up_are_turned(self):
+        config = load(PROJECT / "launch/live.launch", "y_up:=true", "frame:=tank")
+        transform = next(node for node in config.nodes if node.name == "y_up_to_z_up")
+        self.assertEqual(transform.args.split()[-2:], ["z_up", "tank"])
+        viewer = next(node for node in config.nodes if node.name == "rviz")
+        self.assertEqual(viewer.args.split()[-2:], ["-f", "z_up"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+// Nodelets of a manager and a node that run in processes of their own.
+
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Log.h>
+
+#include "ros_live/live_node.h"
+
+namespace particle_surface_tracker::test {
+namespace {
+
+// The particles of the ball, to everyone.
+class RunningNodesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    publisher = ros::NodeHandle().advertise<sensor_msgs::PointCloud2>("particles", 100);
+    ASSERT_TRUE(wait_until([] { return publisher.getNumSubscribers() == 2; })) << publisher.getNumSubscribers();
+  }
+  static void TearDownTestSuite() { publisher.shutdown(); }
+
+  static ros::Publisher publisher;  // The manager is one subscriber, the node the other.
+};
+
+ros::Publisher RunningNodesTest::publisher;
+
+FrameHandler offline_handler(AdvectionMethod advection) {
+  FrameHandlerOptions options;
+  options.estimate_spacing = true;
+  options.parameters.advection = advection;
+  return FrameHandler(options);
+}
+
+TEST_F(RunningNodesTest, TrackEveryFrameAsTheFrameHandlerDoes) {
+  Collector<TrackedMesh> one("/one/mesh");
+  Collector<TrackedMesh> two("/two/mesh");
+  Collector<TrackedMesh> alone("/alone/mesh");
+  Collector<TrackerStatus> statuses("/two/status");
+  ASSERT_TRUE(one.wait_for_publisher());
+  ASSERT_TRUE(two.wait_for_publisher());
+  ASSERT_TRUE(alone.wait_for_publisher());
+  ASSERT_TRUE(statuses.wait_for_publisher());
+  for (int n = 0; n < 5; ++n) publisher.publish(ball_cloud(n));
+  ASSERT_EQ(one.wait_for(5).size(), 5u);
+  ASSERT_EQ(two.wait_for(5).size(), 5u);
+  ASSERT_EQ(alone.wait_for(5).size(), 5u);
+  ASSERT_EQ(statuses.wait_for(5).size(), 5u);
+  FrameHandler affine = offline_handler(AdvectionMethod::kAffine);
+  FrameHandler average = offline_handler(AdvectionMethod::kAverage);
+  for (int n = 0; n < 5; ++n) {
+    affine.handle(*ball_cloud(n), static_cast<std::uint64_t>(n));
+    average.handle(*ball_cloud(n), static_cast<std::uint64_t>(n));
+    const auto at = static_cast<std::size_t>(n);
+    EXPECT_EQ(bytes_of(*one.wait_for(5)[at]), bytes_of(affine.message())) << n;
+    EXPECT_EQ(bytes_of(*two.wait_for(5)[at]), bytes_of(average.message())) << n;
+    EXPECT_EQ(bytes_of(*alone.wait_for(5)[at]), bytes_of(affine.message({true, false}))) << n;
+    EXPECT_EQ(statuses.wait_for(5)[at]->state, n == 0 ? TrackerStatus::STARTED : TrackerStatus::TRACKED);
+  }
+}
+
+TEST_F(RunningNodesTest, LateSubscribersOfOtherProcessesGetTheLastMesh) {
+  for (const char* topic : {"/one/mesh", "/two/mesh", "/alone/mesh"}) {
+    Collector<TrackedMesh> meshes(topic);
+    ASSERT_EQ(meshes.wait_for(1).size(), 1u) << topic;
+    EXPECT_EQ(meshes.wait_for(1)[0]->header.stamp, ball_cloud(4)->header.stamp) << topic;
+  }
+}
+
+TEST_F(RunningNodesTest, ThoseThatCannotStartAreGone) {
+  EXPECT_TRUE(wait_until([] {
+    ros::master::V_TopicInfo topics;
+    ros::master::getTopics(topics);
+    return std::none_of(topics.begin(), topics.end(), [](const auto& topic) {
+      return topic.name == "/bad_mesh/status" || topic.name == "/bad_parameter/status";
+    });
+  }));
+  publisher.publish(ball_cloud(5));
+  Collector<TrackerStatus> statuses("/one/status");
+  ASSERT_TRUE(statuses.wait_for_publisher());
+  publisher.publish(ball_cloud(6));
+  EXPECT_GE(statuses.wait_for(1).size(), 1u);
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "running_nodes_test");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  const ros::NodeHandle keeps_the_node_alive;
+  return RUN_ALL_TESTS();
+}
