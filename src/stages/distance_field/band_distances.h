@@ -1,25 +1,23 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <memory>
 #include <vector>
 
-#include <openvdb/Types.h>
+#include <openvdb/openvdb.h>
 
-#include "patch_kernel.h"
 #include "stages/nodes/node_masks.h"
 #include "surface_cells.h"
 
 namespace particle_surface_tracker {
 
-/// Squared distances of the nodes of a leaf of 8³ to the isosurface [cells²], z fastest.
-using LeafDistances = std::array<float, 512>;
+/// A leaf of the field of distances, first of squared ones [cells²].
+using DistanceLeaf = std::unique_ptr<openvdb::FloatTree::LeafNodeType>;
 
-/// Computes the squared distances of nodes [cells²]; those farther than the reach, and those that are not wanted, hold
-/// more than its square.
+/// Computes the squared distances of nodes to the isosurface [cells²]; those farther than the reach hold more than its
+/// square. What those hold that are not wanted means nothing.
 /// \param wanted the nodes to compute.
 /// \param reach [cells].
 /// \return one entry per leaf of `wanted`.
-std::vector<LeafDistances> measure_distances(const SurfaceCells& cells, const NodeMasks& wanted, double reach);
+std::vector<DistanceLeaf> measure_distances(const SurfaceCells& cells, const NodeMasks& wanted, double reach);
 
 }  // namespace particle_surface_tracker

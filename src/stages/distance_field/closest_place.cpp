@@ -6,6 +6,7 @@
 
 #include <openvdb/math/Proximity.h>
 
+#include "cell_shape.h"
 #include "stages/nodes/lattice_cell.h"
 
 namespace particle_surface_tracker {
@@ -17,25 +18,19 @@ constexpr int kWidth = 8;
 /// For rounding, of a distance [cells].
 constexpr float kSlack = 1e-3f;
 
+/// Cells are not looked at for the sake of less than this: far away, many are about equally near [cells].
+constexpr float kSmallestGain = 0.01f;
+
 openvdb::Vec3d to_openvdb(const Vec3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// The least distance that a position can have to the disc around the triangles of a cell.
-float distance_to_disc(const CellBounds& cell, const Vec3f& offset) {
-  const float along = offset.dot(cell.normal);
-  const float height = std::max(0.0f, std::abs(along) - cell.height);
-  const float across = std::sqrt(std::max(0.0f, offset.squaredNorm() - along * along));
-  const float beyond = std::max(0.0f, across - cell.radius);
-  return std::sqrt(height * height + beyond * beyond);
-}
-
 }  // namespace
 
-ClosestPlace ClosestPlaceSearch::find(const Vec3d& position) {
+ClosestPlace ClosestPlaceSearch::find(const Vec3d& position, float squared_limit) {
   const openvdb::Coord leaf_origin = cell_of(position) & ~(kWidth - 1);
   if (leaf_origin != around_) find_leaves(leaf_origin);
-  ClosestPlace closest = {static_cast<float>(reach_ * reach_) * 1.001f, Vec3d::Zero()};
+  ClosestPlace closest = {std::min(static_cast<float>(reach_ * reach_) * 1.001f, squared_limit), Vec3d::Zero()};
   near_.clear();
   for (const SurfaceCells::Leaf* leaf : found_) {
     const Vec3f place = (position - Vec3d(leaf->origin.x(), leaf->origin.y(), leaf->origin.z())).cast<float>();
@@ -48,22 +43,26 @@ ClosestPlace ClosestPlaceSearch::find(const Vec3d& position) {
   });
   for (const NearLeaf& near : near_) {
     if (near.squared_distance >= closest.squared_distance) break;
-    std::uint32_t nearest = near.leaf->begin;
+    const std::vector<Disc>& discs = discs_of(*near.leaf);
+    std::uint32_t nearest = 0;
     float nearest_squared = 1e30f;
-    for (std::uint32_t c = near.leaf->begin; c != near.leaf->end; ++c) {
-      const float squared = (near.position - cells_.bounds(c).center).squaredNorm();
+    for (std::uint32_t n = 0; n < discs.size(); ++n) {
+      const float squared = (near.position - discs[n].center).squaredNorm();
       if (squared < nearest_squared) {
         nearest_squared = squared;
-        nearest = c;
+        nearest = n;
       }
     }
-    measure(nearest, position, closest);
-    for (std::uint32_t c = near.leaf->begin; c != near.leaf->end; ++c) {
-      const CellBounds& cell = cells_.bounds(c);
-      const Vec3f offset = near.position - cell.center;
-      const float within = std::sqrt(closest.squared_distance) + kSlack;
-      if (offset.squaredNorm() > (within + cell.radius) * (within + cell.radius)) continue;
-      if (c != nearest && distance_to_disc(cell, offset) <= within) measure(c, position, closest);
+    const auto measure_within = [&](std::uint32_t n) {
+      const Disc& disc = discs[n];
+      const Vec3f offset = near.position - disc.center;
+      const float within = std::sqrt(closest.squared_distance) - kSmallestGain;
+      if (offset.squaredNorm() > (within + disc.radius) * (within + disc.radius)) return;
+      if (distance_to_disc(disc, offset) <= within) measure(near.leaf->begin + n, position, closest);
+    };
+    measure_within(nearest);
+    for (std::uint32_t n = 0; n < discs.size(); ++n) {
+      if (n != nearest) measure_within(n);
     }
   }
   return closest;
@@ -83,13 +82,53 @@ void ClosestPlaceSearch::find_leaves(const openvdb::Coord& leaf_origin) {
   }
 }
 
+const std::vector<ClosestPlaceSearch::Disc>& ClosestPlaceSearch::discs_of(const SurfaceCells::Leaf& leaf) {
+  std::vector<Disc>& discs = discs_[&leaf - cells_.leaves().data()];
+  for (std::uint32_t c = leaf.begin + static_cast<std::uint32_t>(discs.size()); c != leaf.end; ++c) {
+    discs.push_back(make_disc(c, leaf.origin));
+  }
+  return discs;
+}
+
+ClosestPlaceSearch::Disc ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const {
+  CellShape shape;
+  make_cell_shape(cells_, cell, leaf_origin, shape);
+  Quad low = shape.corner[0];
+  Quad high = low;
+  for (int i = 1; i < shape.corners; ++i) {
+    low = smaller(low, shape.corner[i]);
+    high = larger(high, shape.corner[i]);
+  }
+  const Quad center = 0.5f * (low + high);
+  const Vec3f mean = to_vector(shape.normals.lower + shape.normals.upper);
+  const float length = mean.norm();
+  Disc disc = {to_vector(center), length > 0.0f ? Vec3f(mean / length) : Vec3f::UnitX(), 0.0f, kSlack};
+  for (int i = 0; i < shape.corners; ++i) {
+    const Vec3f offset = to_vector(shape.corner[i] - center);
+    disc.radius = std::max(disc.radius, offset.norm() + kSlack);
+    disc.height = std::max(disc.height, std::abs(offset.dot(disc.normal)) + kSlack);
+  }
+  return disc;
+}
+
+/// The least distance that a position can have to the triangles.
+float ClosestPlaceSearch::distance_to_disc(const Disc& disc, const Vec3f& offset) {
+  const float along = offset.dot(disc.normal);
+  const float height = std::max(0.0f, std::abs(along) - disc.height);
+  const float across = std::sqrt(std::max(0.0f, offset.squaredNorm() - along * along));
+  const float beyond = std::max(0.0f, across - disc.radius);
+  return std::sqrt(height * height + beyond * beyond);
+}
+
 void ClosestPlaceSearch::measure(std::uint32_t cell, const Vec3d& position, ClosestPlace& closest) const {
   const SurfaceTriangulation& mesh = cells_.surface().triangulation;
   const openvdb::Coord corner = mesh.cells[cell].origin;
   const Vec3d origin(corner.x(), corner.y(), corner.z());
   const openvdb::Vec3d place = to_openvdb(position - origin);
   for (std::uint32_t t = mesh.cells[cell].first_triangle; t != mesh.cells[cell + 1].first_triangle; ++t) {
-    const auto vertex = [&](int i) { return to_openvdb(cells_.relative(mesh.triangles[t][i], corner).cast<double>()); };
+    const auto vertex = [&](int i) {
+      return to_openvdb(to_vector(cells_.relative(mesh.triangles[t][i], corner)).cast<double>());
+    };
     openvdb::Vec3d unused;
     const openvdb::Vec3d point =
         openvdb::math::closestPointOnTriangleToPoint(vertex(0), vertex(1), vertex(2), place, unused);

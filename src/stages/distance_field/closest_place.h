@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "surface_cells.h"
@@ -8,22 +9,33 @@ namespace particle_surface_tracker {
 
 /// A place on the isosurface.
 struct ClosestPlace {
-  float squared_distance;  ///< To it [cells²].
+  float squared_distance;  ///< To it [cells²]; the distance is at most 0.01 cells above the smallest.
   Vec3d place;             ///< [cells]
 };
 
 /// Finds the closest place on the isosurface for single positions, whatever their distance: cells that cannot be closer
-/// than what has been found are passed over. One object per thread.
+/// than what has been found, or hardly, are passed over. One object per thread.
 class ClosestPlaceSearch {
  public:
   /// \param reach [cells].
-  ClosestPlaceSearch(const SurfaceCells& cells, double reach) : cells_(cells), reach_(reach) {}
+  ClosestPlaceSearch(const SurfaceCells& cells, double reach)
+      : cells_(cells), reach_(reach), discs_(cells.leaves().size()) {}
 
   /// \param position [cells].
-  /// \return if nothing is within reach, a squared distance of more than the reach's square.
-  ClosestPlace find(const Vec3d& position);
+  /// \param squared_limit no place farther than this is looked for [cells²].
+  /// \return if nothing is within the reach and the limit, a squared distance of more than the reach's square or of the
+  /// limit.
+  ClosestPlace find(const Vec3d& position, float squared_limit = std::numeric_limits<float>::max());
 
  private:
+  /// Where the triangles of a cell are; coordinates in cells, relative to the corner of its leaf.
+  struct Disc {
+    Vec3f center;
+    Vec3f normal;  // unit, a mean
+    float radius;  // the triangles are within this of the center
+    float height;  // they are within this of the plane through the center across the normal
+  };
+
   struct NearLeaf {
     const SurfaceCells::Leaf* leaf;
     Vec3f position;          // relative to the leaf's corner
@@ -31,6 +43,9 @@ class ClosestPlaceSearch {
   };
 
   void find_leaves(const openvdb::Coord& leaf_origin);
+  const std::vector<Disc>& discs_of(const SurfaceCells::Leaf& leaf);
+  Disc make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const;
+  static float distance_to_disc(const Disc& disc, const Vec3f& offset);
   void measure(std::uint32_t cell, const Vec3d& position, ClosestPlace& closest) const;
 
   const SurfaceCells& cells_;
@@ -38,6 +53,7 @@ class ClosestPlaceSearch {
   openvdb::Coord around_{1, 1, 1};                // the leaf whose surroundings are known; no leaf begins here
   std::vector<const SurfaceCells::Leaf*> found_;  // in them
   std::vector<NearLeaf> near_;
+  std::vector<std::vector<Disc>> discs_;  // of the leaves met so far, by their number
 };
 
 }  // namespace particle_surface_tracker

@@ -43,8 +43,7 @@ void insert_way(const Vec3d& from, const Vec3d& to, NodeMasks& cells) {
 }
 
 SignedDistanceField make_field(const SurfaceCells& cells, const NodeMasks& wanted, double reach) {
-  const std::vector<LeafDistances> distances = measure_distances(cells, wanted, reach / cells.surface().dx);
-  return sign_distances(cells.surface(), wanted, distances, reach);
+  return sign_distances(cells.surface(), wanted, measure_distances(cells, wanted, reach / cells.surface().dx), reach);
 }
 
 }  // namespace

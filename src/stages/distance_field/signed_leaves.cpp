@@ -1,22 +1,18 @@
 #include "signed_leaves.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "leaf_values.h"
 #include "sign_flood.h"
 
 namespace particle_surface_tracker {
 
 namespace {
 
-constexpr int kWidth = 8;
+using OutputLeaf = openvdb::FloatTree::LeafNodeType;
 
-/// What rounding leaves of the squared distance of a node next to the isosurface [cells²]. No distance becomes 0, which
-/// would have lost its sign.
-constexpr float kSmallestSquared = 1e-8f;
+constexpr int kWidth = 8;
 
 template <typename Visit>
 void for_each_index(std::size_t count, Visit&& visit) {
@@ -26,26 +22,23 @@ void for_each_index(std::size_t count, Visit&& visit) {
 }
 
 /// What is known of a leaf before signs are carried.
+/// \param near nodes within reach.
 SignLeaf seed_signs(const ImplicitSurface& surface, const NodeMasks& wanted, const NodeMasks::Leaf& wanted_leaf,
-                    const LeafDistances& distances, float squared_reach) {
+                    const LeafWords& near) {
   SignLeaf leaf;
   for (int side = 0; side < 6; ++side) {
     openvdb::Coord neighbor = wanted_leaf.origin;
     neighbor[side >> 1] += side & 1 ? kWidth : -kWidth;
     leaf.neighbors[side] = wanted.find(neighbor);
   }
-  for (int x = 0; x < kWidth; ++x) {
-    for_each_bit(wanted_leaf.words[x],
-                 [&](int bit) { leaf.unknown[x] |= std::uint64_t{distances[64 * x + bit] <= squared_reach} << bit; });
-  }
+  for (int x = 0; x < kWidth; ++x) leaf.unknown[x] = wanted_leaf.words[x] & near[x];
   const auto* field = surface.field->tree().probeConstLeaf(wanted_leaf.origin);
   if (field == nullptr) return leaf;
+  const LeafWords positive = nodes_at_least_zero(field->buffer().data());
   for (int x = 0; x < kWidth; ++x) {
     const std::uint64_t seeds = leaf.unknown[x] & field->getValueMask().getWord<openvdb::Index64>(x);
-    for_each_bit(seeds, [&](int bit) {
-      const bool is_inside = field->buffer().data()[64 * x + bit] < 0.0f;
-      (is_inside ? leaf.inside : leaf.outside)[x] |= std::uint64_t{1} << bit;
-    });
+    leaf.inside[x] = seeds & ~positive[x];
+    leaf.outside[x] = seeds & positive[x];
     leaf.unknown[x] &= ~seeds;
   }
   return leaf;
@@ -54,13 +47,20 @@ SignLeaf seed_signs(const ImplicitSurface& surface, const NodeMasks& wanted, con
 }  // namespace
 
 SignedDistanceField sign_distances(const ImplicitSurface& surface, const NodeMasks& wanted,
-                                   const std::vector<LeafDistances>& distances, double reach) {
+                                   std::vector<DistanceLeaf> leaves, double reach) {
   const auto squared_reach = static_cast<float>((reach / surface.dx) * (reach / surface.dx));
-  std::vector<SignLeaf> signs(distances.size());
+  std::vector<SignLeaf> signs(leaves.size());
   for_each_index(signs.size(), [&](std::size_t n) {
-    signs[n] = seed_signs(surface, wanted, wanted.leaves()[n], distances[n], squared_reach);
+    signs[n] =
+        seed_signs(surface, wanted, wanted.leaves()[n], nodes_at_most(leaves[n]->buffer().data(), squared_reach));
   });
   flood_signs(signs);
+  for_each_index(leaves.size(), [&](std::size_t n) {
+    OutputLeaf::NodeMaskType mask;
+    for (int x = 0; x < kWidth; ++x) mask.getWord<openvdb::Index64>(x) = signs[n].inside[x] | signs[n].outside[x];
+    leaves[n]->setValueMask(mask);
+    sign_values(signs[n].inside, signs[n].outside, static_cast<float>(surface.dx), leaves[n]->buffer().data());
+  });
 
   SignedDistanceField field;
   field.dx = surface.dx;
@@ -68,30 +68,9 @@ SignedDistanceField sign_distances(const ImplicitSurface& surface, const NodeMas
   field.phi = openvdb::FloatGrid::create(SignedDistanceField::absent);
   field.phi->setTransform(openvdb::math::Transform::createLinearTransform(surface.dx));
   field.phi->setName("phi");
-  using OutputLeaf = openvdb::FloatTree::LeafNodeType;
-  std::vector<OutputLeaf*> outputs(signs.size(), nullptr);
-  for (std::size_t n = 0; n < signs.size(); ++n) {
-    if (is_zero(signs[n].inside) && is_zero(signs[n].outside)) continue;
-    outputs[n] = new OutputLeaf(wanted.leaves()[n].origin, SignedDistanceField::absent, /*active*/ false);
-    field.phi->tree().addLeaf(outputs[n]);
+  for (DistanceLeaf& leaf : leaves) {
+    if (!leaf->isEmpty()) field.phi->tree().addLeaf(leaf.release());
   }
-  for_each_index(outputs.size(), [&](std::size_t n) {
-    if (outputs[n] == nullptr) return;
-    OutputLeaf::NodeMaskType mask;
-    float* values = outputs[n]->buffer().data();
-    for (int x = 0; x < kWidth; ++x) {
-      mask.getWord<openvdb::Index64>(x) = signs[n].inside[x] | signs[n].outside[x];
-      const auto write = [&](std::uint64_t nodes, float unit) {
-        for_each_bit(nodes, [&](int bit) {
-          const float squared = std::max(distances[n][64 * x + bit], kSmallestSquared);
-          values[64 * x + bit] = std::sqrt(squared) * unit;
-        });
-      };
-      write(signs[n].inside[x], static_cast<float>(-surface.dx));
-      write(signs[n].outside[x], static_cast<float>(surface.dx));
-    }
-    outputs[n]->setValueMask(mask);
-  });
   return field;
 }
 

@@ -11,10 +11,10 @@ namespace particle_surface_tracker {
 
 /// Gives distances their signs. Those at the corners of cut cells are φ̃'s; both ends of every edge that the isosurface
 /// crosses are such corners, so they can be carried along lattice edges without crossing it.
-/// \param distances of each leaf of `wanted`, squared [cells²].
+/// \param leaves of `wanted`, with squared distances [cells²]; they become the field's.
 /// \param reach [m].
 /// \return the wanted nodes within reach that lattice edges between such nodes connect to a corner of a cut cell.
 SignedDistanceField sign_distances(const ImplicitSurface& surface, const NodeMasks& wanted,
-                                   const std::vector<LeafDistances>& distances, double reach);
+                                   std::vector<DistanceLeaf> leaves, double reach);
 
 }  // namespace particle_surface_tracker

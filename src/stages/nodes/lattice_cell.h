@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cmath>
+#include <cstdint>
 
 #include <openvdb/Types.h>
 
@@ -16,10 +16,15 @@ inline bool has_cell(const Vec3d& position) {
   return position.cwiseAbs().maxCoeff() < kFarthestCell;
 }
 
+/// The largest whole number not above x, which must be one of 32 bits; std::floor is a function call on plain x86-64.
+inline std::int32_t floor_of(double x) {
+  const auto truncated = static_cast<std::int32_t>(x);
+  return truncated - (x < static_cast<double>(truncated) ? 1 : 0);
+}
+
 /// The cell that holds a position that has one [cells].
 inline openvdb::Coord cell_of(const Vec3d& position) {
-  return {static_cast<int>(std::floor(position.x())), static_cast<int>(std::floor(position.y())),
-          static_cast<int>(std::floor(position.z()))};
+  return {floor_of(position.x()), floor_of(position.y()), floor_of(position.z())};
 }
 
 }  // namespace particle_surface_tracker

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/nodes/lattice_cell.h"
+
 namespace particle_surface_tracker {
 
 namespace {
@@ -14,15 +16,6 @@ constexpr double kSmallestSlope = 1e-3;
 /// place of seven of 0.35 φ. They stop short of the surface, as those do [cells].
 constexpr double kNear = 0.1;
 constexpr double kNearStep = 0.8;
-
-/// Positions beyond this have no cell [cells].
-constexpr double kFarthest = 1 << 30;
-
-/// The largest whole number not above x; std::floor is a function call on plain x86-64.
-std::int32_t floor_of(double x) {
-  const auto truncated = static_cast<std::int32_t>(x);
-  return truncated - (x < static_cast<double>(truncated) ? 1 : 0);
-}
 
 }  // namespace
 
@@ -62,14 +55,14 @@ void SurfaceSearch::refill(int l, const std::vector<Vec3f>& vertices, std::size_
   lane.busy = false;
   for (; next < end; ++next) {
     const Vec3d lattice = vertices[next].cast<double>() / dx_;
-    if (!(lattice.cwiseAbs().maxCoeff() < kFarthest)) {
+    if (!has_cell(lattice)) {
       found[next].status = ProjectionStatus::kAbsent;
       continue;
     }
     lane.busy = true;
     lane.vertex = next++;
     lane.steps = 0;
-    lane.cell = openvdb::Coord(floor_of(lattice.x()), floor_of(lattice.y()), floor_of(lattice.z()));
+    lane.cell = cell_of(lattice);
     for (int axis = 0; axis < 3; ++axis) batch_.place[axis][l] = static_cast<float>(lattice[axis] - lane.cell[axis]);
     stencil_.load(lane.cell, &batch_.nodes[0][l], TricubicBatch::lanes);
     return;
