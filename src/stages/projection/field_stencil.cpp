@@ -1,11 +1,23 @@
 #include "field_stencil.h"
 
+#include <algorithm>
+
 namespace particle_surface_tracker {
 
 namespace {
 
 /// No leaf begins here: origins are multiples of 8.
 const openvdb::Coord kNowhere(1, 1, 1);
+
+/// What a leaf that is not there holds.
+const std::array<float, 512>& absent_values() {
+  static const std::array<float, 512> values = [] {
+    std::array<float, 512> all;
+    all.fill(SignedDistanceField::absent);
+    return all;
+  }();
+  return values;
+}
 
 }  // namespace
 
@@ -18,7 +30,7 @@ const float* FieldStencil::leaf_values(const openvdb::Coord& origin) {
   Slot& slot = leaves_[hash % leaves_.size()];
   if (slot.origin != origin) {
     const auto* leaf = accessor_.probeConstLeaf(origin);
-    slot = {origin, leaf == nullptr ? nullptr : leaf->buffer().data()};
+    slot = {origin, leaf == nullptr ? absent_values().data() : leaf->buffer().data()};
   }
   return slot.values;
 }
@@ -36,15 +48,20 @@ void FieldStencil::load(const openvdb::Coord& cell, float* nodes, std::size_t st
     if (x > last.x() >> 3 || y > last.y() >> 3 || z > last.z() >> 3) continue;
     values[n] = leaf_values(origin.offsetBy(8 * x, 8 * y, 8 * z));
   }
-  for (int x = at.x(); x <= last.x(); ++x) {
-    for (int y = at.y(); y <= last.y(); ++y) {
-      const int column = ((x >> 3) << 2) + ((y >> 3) << 1);
-      const int offset = ((x & 7) << 6) + ((y & 7) << 3);
-      for (int z = at.z(); z <= last.z(); ++z) {
-        const float* leaf = values[column + (z >> 3)];
-        *nodes = leaf == nullptr ? SignedDistanceField::absent : leaf[offset + (z & 7)];
-        nodes += stride;
-      }
+  const int z = at.z();
+  const int in_first = std::min(4, 8 - z);  // nodes of a row before it goes on in the next leaf
+  for (int i = 0; i < 16; ++i) {
+    const int x = at.x() + (i >> 2);
+    const int y = at.y() + (i & 3);
+    const float* const* leaves = &values[((x >> 3) << 2) + ((y >> 3) << 1)];
+    const int row = ((x & 7) << 6) + ((y & 7) << 3);
+    float* to = nodes + 4 * i * stride;
+    if (in_first == 4) {
+      const float* from = leaves[0] + row + z;
+      for (int k = 0; k < 4; ++k) to[k * stride] = from[k];
+    } else {
+      for (int k = 0; k < in_first; ++k) to[k * stride] = leaves[0][row + z + k];
+      for (int k = in_first; k < 4; ++k) to[k * stride] = leaves[1][row + z + k - 8];
     }
   }
 }
