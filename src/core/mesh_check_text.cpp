@@ -63,7 +63,7 @@ std::string describe(const std::vector<NamedMeshDefect>& kinds) {
 
 std::string describe_place(const char* element, const MeshPlace& place) {
   const bool is_edge = std::string(element) == "edge";
-  const std::string first = describe_vertex(is_edge ? "vertex" : element, place.index, place.position);
+  std::string first = describe_vertex(is_edge ? "vertex" : element, place.index, place.position);
   if (place.other == place.index) return first;
   const std::string other = describe_vertex(is_edge ? "vertex" : element, place.other, place.other_position);
   return is_edge ? fmt::format("between {} and {}", first, other) : fmt::format("{}, with {}", first, other);

@@ -127,6 +127,56 @@ TEST(FrameHandler, RefinedMeshHasNoEdgeLongerThanTheSpacing) {
   }
 }
 
+TEST(FrameHandler, ResetStartsAgainWithTheInitialMesh) {
+  FrameHandler handler(ball_options());
+  handler.handle(ball_cloud(0), 0);
+  const TrackedMesh first = handler.message({true, true});
+  handler.handle(ball_cloud(1), 1);
+  EXPECT_EQ(handler.message({false, true}).velocities.size(), first.vertices.size());
+  handler.reset();
+  EXPECT_FALSE(handler.started());
+  handler.handle(ball_cloud(0), 0);
+  const TrackedMesh again = handler.message({true, true});
+  EXPECT_EQ(again.vertices, first.vertices);
+  EXPECT_EQ(again.normals, first.normals);
+  EXPECT_TRUE(again.velocities.empty());
+  EXPECT_GT(again.topology_version, first.topology_version);
+}
+
+TEST(FrameHandler, FramesOfOneStampHaveNoVelocities) {
+  FrameHandler handler(ball_options());
+  sensor_msgs::PointCloud2 cloud = ball_cloud(0);
+  handler.handle(cloud, 0);
+  handler.handle(cloud, 1);
+  EXPECT_TRUE(handler.message({false, true}).velocities.empty());
+}
+
+TEST(FrameHandler, ParametersThatCannotChangeWaitForTheReset) {
+  FrameHandlerOptions options = ball_options();
+  options.estimate_spacing = true;
+  FrameHandler handler(options);
+  Parameters parameters = options.parameters;
+  parameters.dx_phi = 0.4;
+  EXPECT_TRUE(handler.set_parameters(parameters).empty());
+  handler.handle(ball_cloud(0), 0);
+  EXPECT_EQ(handler.tracker().parameters().dx_phi, 0.4);
+
+  parameters.tau = 0.6;
+  parameters.dx_phi = 0.3;
+  EXPECT_EQ(handler.set_parameters(parameters), std::vector<std::string>{"dx_phi"});
+  EXPECT_EQ(handler.tracker().parameters().tau, 0.6);
+  EXPECT_EQ(handler.tracker().parameters().dx_phi, 0.4);
+  EXPECT_NEAR(handler.tracker().parameters().particle_spacing, r, 1e-6);
+  handler.reset();
+  handler.handle(ball_cloud(0), 0);
+  EXPECT_EQ(handler.tracker().parameters().dx_phi, 0.3);
+  EXPECT_EQ(handler.tracker().parameters().tau, 0.6);
+
+  parameters.epsilon = 2.0;
+  EXPECT_THROW(handler.set_parameters(parameters), ParameterError);
+  EXPECT_EQ(handler.tracker().parameters().epsilon, Parameters().epsilon);
+}
+
 TEST(FrameHandler, BadParametersAreRefusedAtOnce) {
   FrameHandlerOptions options = ball_options();
   options.parameters.particle_spacing = 0.0;

@@ -40,7 +40,8 @@ ParticleFrame particles_in(const std::vector<Box>& boxes) {
   std::vector<Vec3f> positions;
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < 40 * 3 * 3; ++id) {
-    const Vec3d place(id / 9 + 0.5, id / 3 % 3 + 0.5, id % 3 + 0.5);
+    const std::uint32_t slice = id / 9, row = id / 3 % 3, column = id % 3;
+    const Vec3d place(slice + 0.5, row + 0.5, column + 0.5);
     for (const auto& [lower, upper] : boxes) {
       if ((place.array() < lower.array()).any() || (place.array() > upper.array()).any()) continue;
       positions.push_back(place.cast<float>());

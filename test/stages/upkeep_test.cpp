@@ -58,7 +58,7 @@ void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
 
 /// A body with needles and folds of its own; made once, for that takes a second.
 const TriangleMesh& detailed_mesh() {
-  static const TriangleMesh mesh = detailed_mesh();
+  static const TriangleMesh mesh = test::DetailedBody(0.1).mesh();
   return mesh;
 }
 

@@ -67,8 +67,8 @@ class ExactLattice {
   /// Segments of one triangle, sorted.
   std::vector<Segment> segments(std::uint32_t triangle) const;
 
-  /// Where a mesh edge from a to b crosses a plane, as a share of its length.
-  Number share(std::uint32_t a, std::uint32_t b, int axis, std::int32_t plane) const;
+  /// Where a mesh edge from a to b crosses plane k, as a share of its length.
+  Number share(std::uint32_t a, std::uint32_t b, int axis, std::int32_t k) const;
 
  private:
   Number plane(std::int32_t k) const;

@@ -2,7 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
 #include <gtest/gtest.h>
 
 #include "particle_surface_tracker/stages/mesh_lattice.h"
@@ -13,7 +14,7 @@
 namespace particle_surface_tracker {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Kernel = CGAL::Simple_cartesian<CGAL::Gmpq>;
 using openvdb::Coord;
 using test::LatticeCase;
 
