@@ -1,4 +1,4 @@
-#include "../../src/stages/triangulation/cell_loops.h"
+#include "stages/triangulation/cell_loops.h"
 
 #include <set>
 #include <utility>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "../../src/stages/triangulation/loop_filling.h"
+#include "stages/triangulation/loop_filling.h"
 #include "particle_surface_tracker/core/types.h"
 
 namespace particle_surface_tracker {

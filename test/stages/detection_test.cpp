@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../../src/stages/detection/triangle_cells.h"
+#include "stages/detection/triangle_cells.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {

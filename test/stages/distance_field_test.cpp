@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "../../src/core/instruction_set.h"
+#include "core/instruction_set.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
 #include "support/sampled_field.h"
 

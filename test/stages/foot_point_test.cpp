@@ -1,4 +1,4 @@
-#include "../../src/stages/projection/foot_point.h"
+#include "stages/projection/foot_point.h"
 
 #include <cmath>
 #include <random>

@@ -9,7 +9,7 @@
 #include <tbb/global_control.h>
 #include <Eigen/Eigenvalues>
 
-#include "../../src/core/instruction_set.h"
+#include "core/instruction_set.h"
 #include "particle_surface_tracker/core/particle_grid.h"
 #include "support/implicit_bodies.h"
 

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "../../src/core/instruction_set.h"
-#include "../../src/stages/projection/field_stencil.h"
-#include "../../src/stages/projection/tricubic_kernel.h"
+#include "core/instruction_set.h"
+#include "stages/projection/field_stencil.h"
+#include "stages/projection/tricubic_kernel.h"
 #include "support/fields.h"
 #include "support/shapes.h"
 

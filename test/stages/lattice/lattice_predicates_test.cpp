@@ -1,6 +1,6 @@
 // Signs where doubles have the wrong one: lattice lines and nodes as close to edges and planes as doubles can be.
 
-#include "../../../src/stages/lattice/lattice_predicates.h"
+#include "stages/lattice/lattice_predicates.h"
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-#include "../../../src/stages/matching/field_at_nodes.h"
+#include "stages/matching/field_at_nodes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <openvdb/math/Proximity.h>
 #include <tbb/global_control.h>
 
-#include "../../../src/stages/matching/nodes_at_surfaces.h"
+#include "stages/matching/nodes_at_surfaces.h"
 #include "matching_cases.h"
 
 namespace particle_surface_tracker::test::matching {
@@ -69,7 +69,8 @@ TEST(FieldAtNodes, DistancesAreThoseToTheTriangulation) {
   const std::vector<float> phi = FieldAtNodes(surface, kH).distances(nodes, reach);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const double expected = std::min(reach, distance_to(surface.triangulation, place(nodes[n])));
-    EXPECT_NEAR(std::abs(phi[n]), expected, 0.003 * kH) << nodes[n];
+    // What the distance field promises (Sec. 5.1).
+    EXPECT_NEAR(std::abs(phi[n]), expected, 0.02 * kH) << nodes[n];
   }
 }
 

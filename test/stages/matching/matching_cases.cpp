@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../../src/stages/detection/triangle_cells.h"
+#include "stages/detection/triangle_cells.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
 #include "support/sampled_field.h"
 

@@ -1,4 +1,4 @@
-#include "../../../src/stages/matching/poisson_problem.h"
+#include "stages/matching/poisson_problem.h"
 
 #include <cmath>
 #include <random>
@@ -7,7 +7,7 @@
 #include <tbb/global_control.h>
 #include <Eigen/Dense>
 
-#include "../../../src/stages/matching/matching_problem.h"
+#include "stages/matching/matching_problem.h"
 
 namespace particle_surface_tracker {
 namespace {

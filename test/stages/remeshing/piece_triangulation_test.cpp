@@ -1,4 +1,4 @@
-#include "../../../src/stages/remeshing/piece_triangulation.h"
+#include "stages/remeshing/piece_triangulation.h"
 
 #include <algorithm>
 #include <cmath>
