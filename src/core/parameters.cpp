@@ -17,7 +17,7 @@ namespace {
 
 using Field =
     std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*, ProjectionMethod Parameters::*,
-                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*, TopologyMode Parameters::*>;
+                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*, TopologyMode Parameters::*, StretchedDetail Parameters::*>;
 
 struct Entry {
   ParameterInfo info;
@@ -127,6 +127,9 @@ std::vector<Entry> make_entries() {
       real(&P::sliver_angle, "sliver_angle", "", "deg", 0.0, 30.0, false,
            "A triangle with a smaller angle is removed, if that angle has also shrunk to half of what it was at "
            "birth."),
+      choice(&P::stretched_detail, "stretched_detail", {"keep", "thin"},
+             "What becomes of delta where the surface is drawn out: it stays, as in the paper, or shrinks as the area "
+             "grows, so that detail keeps its volume."),
       real(
           &P::delta_half_life, "delta_half_life", "", "s", 0.0, 1e9, false,
           "Time in which the distance delta between mesh and isosurface halves, so that old detail fades; 0 keeps it."),

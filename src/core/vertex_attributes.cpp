@@ -20,7 +20,8 @@ float blended(const VertexAttribute& attribute, std::size_t component, const Ver
 
 }  // namespace
 
-std::size_t VertexAttributes::add(const std::string& name, std::size_t components, std::vector<float> initial_value) {
+std::size_t VertexAttributes::add(const std::string& name, std::size_t components, std::vector<float> initial_value,
+                                  AttributeUse use) {
   if (components == 0 || initial_value.size() != components) {
     throw MeshError(
         fmt::format("vertex attribute '{}': {} components with an initial value of {} numbers; both must be "
@@ -35,7 +36,7 @@ std::size_t VertexAttributes::add(const std::string& name, std::size_t component
     }
     return existing;
   }
-  VertexAttribute attribute{name, components, std::move(initial_value), {}};
+  VertexAttribute attribute{name, components, std::move(initial_value), {}, use};
   attribute.values.reserve(vertex_count_ * components);
   for (std::size_t v = 0; v < vertex_count_; ++v) {
     attribute.values.insert(attribute.values.end(), attribute.initial_value.begin(), attribute.initial_value.end());

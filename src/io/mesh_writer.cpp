@@ -29,7 +29,7 @@ std::vector<Column> columns_of(const TriangleMesh& mesh) {
   std::vector<Column> columns;
   for (std::size_t i = 0; i < mesh.attributes().count(); ++i) {
     const VertexAttribute& attribute = mesh.attributes()[i];
-    if (attribute.name != TriangleMesh::delta_name) {
+    if (attribute.use == AttributeUse::kOutput && attribute.name != TriangleMesh::delta_name) {
       columns.push_back({&attribute, attribute.name == TriangleMesh::color_name});
     }
   }

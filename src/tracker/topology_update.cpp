@@ -1,14 +1,11 @@
 #include "topology_update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "band.h"
+#include "fresh_delta.h"
 #include "particle_surface_tracker/stages/disagreement.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 #include "particle_surface_tracker/stages/remeshing.h"
@@ -66,33 +63,6 @@ void describe(const RemeshingReport& remeshed, FrameReport& report) {
   }
 }
 
-/// Measures δ of some vertices where they are (Sec. 5.2), by the search that projects.
-/// \return the largest |δ| of them [m].
-double measure_delta_of(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, const ImplicitSurface& surface,
-                      const Parameters& parameters, FrameReport& report, StageTimer& timer) {
-  if (vertices.empty()) return 0.0;
-  std::vector<Vec3f> positions;
-  positions.reserve(vertices.size());
-  for (const std::uint32_t v : vertices) positions.push_back(mesh.positions()[v]);
-  const double r = parameters.particle_spacing;
-  const Projection measured = project_within_band(positions, std::vector<float>(positions.size(), 0.0f), surface,
-                                                  parameters.tau * r, parameters.max_reach * r, parameters, timer);
-  double largest = 0.0;
-  std::size_t lost = 0;
-  for (std::size_t n = 0; n < vertices.size(); ++n) {
-    const bool found = measured.status[n] == ProjectionStatus::kFound;
-    mesh.delta()[vertices[n]] = found ? measured.distances[n] : 0.0f;
-    largest = std::max(largest, std::abs(static_cast<double>(mesh.delta()[vertices[n]])));
-    lost += found ? 0 : 1;
-  }
-  if (lost > 0) {
-    report.warnings.push_back(
-        fmt::format("{} of {} new vertices have no implicit surface near them; their δ is taken as 0", lost,
-                    vertices.size()));
-  }
-  return largest;
-}
-
 }  // namespace
 
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
@@ -118,6 +88,7 @@ double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const
     describe(remesh(mesh, lattice, request), report);
   }
   timer.begin("upkeep");
+  const std::uint32_t first_upkeep_id = mesh.next_id();
   std::vector<std::uint32_t> remeshed;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.ids()[v] >= first_new_id) remeshed.push_back(v);
@@ -133,7 +104,7 @@ double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const
     if (has_moved) ++moved;
     if (has_moved || mesh.ids()[v] >= first_new_id) fresh.push_back(v);
   }
-  return measure_delta_of(mesh, fresh, surface, parameters, report, timer);
+  return measure_fresh_delta(mesh, fresh, first_new_id, first_upkeep_id, surface, parameters, report, timer);
 }
 
 }  // namespace particle_surface_tracker

@@ -11,6 +11,7 @@
 #include "particle_surface_tracker/core/mesh_validation.h"
 #include "particle_surface_tracker/stages/advection.h"
 #include "particle_surface_tracker/stages/implicit_function.h"
+#include "particle_surface_tracker/stages/stretched_detail.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
 #include "stage_timer.h"
 #include "topology_update.h"
@@ -209,6 +210,9 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     state_->advect_vertices(*next, frame, report, timer);
     next->surface = make_implicit_surface(frame, state_->parameters, timer);
     state_->project_vertices(*next, timer);
+    if (state_->parameters.stretched_detail == StretchedDetail::kThin) {
+      thin_stretched_detail(next->mesh, state_->tracked->mesh.positions());
+    }
     report.flagged_cells = next->detection.flagged_cells.size();
     if (state_->parameters.topology == TopologyMode::kMatch) {
       const double new_delta = update_topology(next->mesh, *next->surface, next->detection, state_->parameters,

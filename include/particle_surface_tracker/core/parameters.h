@@ -35,6 +35,12 @@ enum class MatchingFrames {
   kEvery     ///< Everywhere in every frame.
 };
 
+/// What becomes of δ where the surface is drawn out.
+enum class StretchedDetail {
+  kKeep,  ///< It stays, as in the paper.
+  kThin   ///< It shrinks as the area around it grows, so that detail keeps its volume.
+};
+
 /// Whether the mesh follows the topology of the particles (Secs. 6 to 8).
 enum class TopologyMode {
   kKeep,  ///< Its connectivity never changes: what would split or merge is put back and reported (Sec. 5.3).
@@ -90,6 +96,7 @@ struct Parameters {
   double fold_angle = 160.0;        // An edge whose triangles' normals differ by more is collapsed [deg].
   double sliver_angle = 10.0;       // A triangle with a smaller angle is removed [deg].
 
+  StretchedDetail stretched_detail = StretchedDetail::kThin;
   double delta_half_life = 0.0;  // Time in which δ halves [s]; 0: it never changes.
 };
 

@@ -8,12 +8,19 @@
 
 namespace particle_surface_tracker {
 
+/// Who an attribute is for.
+enum class AttributeUse {
+  kOutput,   ///< Written to files and messages.
+  kInternal  ///< What a stage remembers of a vertex from frame to frame.
+};
+
 /// One array of values carried by the vertices of a mesh, for instance δ, a colour or texture coordinates.
 struct VertexAttribute {
   std::string name;
   std::size_t components = 1;        ///< Numbers per vertex.
   std::vector<float> initial_value;  ///< What a vertex gets that has nothing to inherit from; `components` numbers.
   std::vector<float> values;         ///< `components` numbers per vertex, vertex by vertex.
+  AttributeUse use = AttributeUse::kOutput;
 };
 
 /// Vertices and weights that a new vertex is blended from. The weights sum to 1.
@@ -27,7 +34,8 @@ class VertexAttributes {
   /// \return its index, valid for as long as this object lives.
   /// \throw MeshError if components is 0, differs from initial_value's length, or from that of an attribute of the
   /// name.
-  std::size_t add(const std::string& name, std::size_t components, std::vector<float> initial_value);
+  std::size_t add(const std::string& name, std::size_t components, std::vector<float> initial_value,
+                  AttributeUse use = AttributeUse::kOutput);
 
   /// Index of the attribute of that name, or `none`.
   std::size_t find(const std::string& name) const;

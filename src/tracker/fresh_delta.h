@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "particle_surface_tracker/core/frame_report.h"
+#include "particle_surface_tracker/core/implicit_surface.h"
+#include "particle_surface_tracker/core/parameters.h"
+#include "particle_surface_tracker/core/triangle_mesh.h"
+#include "stage_timer.h"
+
+namespace particle_surface_tracker {
+
+/// Measures δ of vertices that are new or have moved, where they are now, by the search that projects (Sec. 5.2).
+///
+/// What is measured must not make a place of the surface out of one that is only waiting to be put right: beside a
+/// vertex that was flagged and put back, a new one would otherwise take the whole gap for detail, and the gap would
+/// never be flagged again. So δ of a vertex that upkeep made stays within that of its neighbours, and δ of a re-meshed
+/// one within τ of what it was blended from; the next projection moves the vertex by the rest or flags it.
+/// \param vertices increasing indices, with a blended δ.
+/// \param first_upkeep_id ids from here on, and ids below `first_new_id`, are vertices that upkeep made or moved; ids
+/// between the two are re-meshed ones.
+/// \return the largest |δ| of those vertices [m].
+double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, std::uint32_t first_new_id,
+                           std::uint32_t first_upkeep_id, const ImplicitSurface& surface, const Parameters& parameters,
+                           FrameReport& report, StageTimer& timer);
+
+}  // namespace particle_surface_tracker
