@@ -5,6 +5,17 @@
 
 namespace particle_surface_tracker {
 
+namespace {
+
+/// Where the foot of a position on an edge lies: 0 at `from` or before it, 1 at `to` or beyond.
+double share_along_edge(const Vec3d& from, const Vec3d& to, const Vec3d& position) {
+  const Vec3d edge = to - from;
+  const double squared_length = edge.squaredNorm();
+  return squared_length > 0.0 ? std::clamp((position - from).dot(edge) / squared_length, 0.0, 1.0) : 0.5;
+}
+
+}  // namespace
+
 EditableSurface::EditableSurface(TriangleMesh& mesh, std::vector<std::uint32_t>& twins)
     : mesh_(mesh),
       triangles_(mesh.triangles()),
@@ -32,7 +43,9 @@ void EditableSurface::pair(std::uint32_t a, std::uint32_t b) {
 
 std::uint32_t EditableSurface::split(std::uint32_t half_edge, const Vec3f& position) {
   const std::uint32_t other = twin(half_edge);
-  const std::uint32_t middle = mesh_.append_vertex(position, {{start(half_edge), 0.5}, {end(half_edge), 0.5}});
+  const std::uint32_t from = start(half_edge), to = end(half_edge);
+  const double share = share_along_edge(this->position(from), this->position(to), position.cast<double>());
+  const std::uint32_t middle = mesh_.append_vertex(position, {{from, 1.0 - share}, {to, share}});
   is_fresh_.push_back(true);
   const std::uint32_t second_half = split_triangle(half_edge, middle);
   const std::uint32_t second_half_of_other = split_triangle(other, middle);
@@ -66,7 +79,8 @@ void EditableSurface::collapse(std::uint32_t half_edge, const Vec3f& position) {
   remove_triangle(other);
   outgoing_[dropped] = kNoHalfEdge;
   if (position == mesh_.positions()[kept]) return;
-  mesh_.attributes().set_blend(kept, {{dropped, 0.5}, {kept, 0.5}});
+  const double share = share_along_edge(this->position(dropped), this->position(kept), position.cast<double>());
+  mesh_.attributes().set_blend(kept, {{dropped, 1.0 - share}, {kept, share}});
   mesh_.positions()[kept] = position;
   is_fresh_[kept] = true;
 }

@@ -52,12 +52,13 @@ class EditableSurface {
 
   std::uint32_t valence(std::uint32_t vertex) const;
 
-  /// Splits an edge: two triangles become four. The new vertex has a new id and half of each end's attributes.
+  /// Splits an edge: two triangles become four. The new vertex has a new id; its attributes are blended from
+  /// those of the ends, by where along the edge it lies.
   /// \return the new vertex.
   std::uint32_t split(std::uint32_t half_edge, const Vec3f& position);
 
   /// Collapses an edge onto the end of the half-edge: its start and its two triangles go. The end keeps its id; if it
-  /// moves, it gets half of each end's attributes, else it keeps its own.
+  /// moves, its attributes are blended like those of a split, else it keeps its own.
   void collapse(std::uint32_t half_edge, const Vec3f& position);
 
   /// Turns the edge of two triangles so that it connects the two corners that it did not touch.
