@@ -25,11 +25,6 @@ EditableSurface::EditableSurface(TriangleMesh& mesh, std::vector<std::uint32_t>&
   for (std::uint32_t h = 0; h < twins_.size(); ++h) outgoing_[start(h)] = h;
 }
 
-Corners EditableSurface::corners(std::uint32_t triangle) const {
-  const auto& [a, b, c] = triangles_[triangle];
-  return {position(a), position(b), position(c)};
-}
-
 std::uint32_t EditableSurface::valence(std::uint32_t vertex) const {
   std::uint32_t count = 0;
   for_each_outgoing(vertex, [&count](std::uint32_t) { ++count; });

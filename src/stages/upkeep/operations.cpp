@@ -38,7 +38,7 @@ std::uint32_t Operations::split(std::uint32_t half_edge) {
 }
 
 std::uint32_t Operations::collapse(std::uint32_t half_edge) {
-  if (!meets_link_condition(surface_, half_edge)) return kNone;
+  if (!meets_link_condition(surface_, half_edge, indices_)) return kNone;
   const std::uint32_t twin = surface_.twin(half_edge);
   const auto& ids = surface_.mesh().ids();
   // The older vertex is at the end, where it stays.
@@ -124,7 +124,7 @@ bool Operations::may_flip(std::uint32_t half_edge) {
 
 bool Operations::is_clear() {
   if (!surroundings_) surroundings_.emplace(surface_, size_);
-  return stays_clear(surface_, patch_, *surroundings_);
+  return stays_clear(surface_, patch_, *surroundings_, indices_);
 }
 
 double Operations::volume_limit(std::uint32_t half_edge) const {

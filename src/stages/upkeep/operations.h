@@ -46,6 +46,7 @@ class Operations {
   double size_;
   std::optional<Surroundings> surroundings_;  // made when first needed
   PlannedPatch patch_;
+  std::vector<std::uint32_t> indices_;  // memory for searches
 };
 
 }  // namespace particle_surface_tracker
