@@ -19,6 +19,7 @@ struct Candidate {
   double urgency;           ///< Of one ailment, larger ones come first.
   std::uint32_t low, high;  ///< Vertices of the edge when this was found; they settle ties.
   std::uint32_t half_edge;
+  Vec3f position = Vec3f::Zero();  ///< Where a long edge is to be split [m].
 
   /// Whether the other comes first.
   bool operator<(const Candidate& other) const;

@@ -114,13 +114,32 @@ std::vector<std::uint32_t> EditableSurface::finish() {
     if (is_fresh_[v]) fresh.push_back(index);
     ++index;
   }
-  const auto gone =
-      std::remove_if(triangles_.begin(), triangles_.end(), [](const Triangle& t) { return t[0] == kGone; });
-  if (gone != triangles_.end()) twins_.clear();
-  triangles_.erase(gone, triangles_.end());
+  close_gaps();
   mesh_.set_triangles(std::move(triangles_));
   mesh_.remove_unused_vertices();
   return fresh;
+}
+
+/// Moves triangles to where those before them have gone, and their twins with them.
+void EditableSurface::close_gaps() {
+  std::vector<std::uint32_t> new_index(triangles_.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    new_index[t] = count;
+    if (is_alive(t)) ++count;
+  }
+  if (count == triangles_.size()) return;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    if (!is_alive(t)) continue;
+    const std::uint32_t to = new_index[t];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t twin = twins_[3 * t + k];
+      twins_[3 * to + k] = 3 * new_index[twin / 3] + twin % 3;
+    }
+    triangles_[to] = triangles_[t];
+  }
+  triangles_.resize(count);
+  twins_.resize(3 * static_cast<std::size_t>(count));
 }
 
 }  // namespace particle_surface_tracker

@@ -13,8 +13,7 @@ namespace particle_surface_tracker {
 /// around them. Triangles and vertices keep their index until finish(), which closes the gaps.
 class EditableSurface {
  public:
-  /// \param twins as made by pair_half_edges(); kept in step with every operation, and emptied by a finish() that moves
-  /// triangles to other indices.
+  /// \param twins as made by pair_half_edges(); kept in step with every operation and with finish().
   EditableSurface(TriangleMesh& mesh, std::vector<std::uint32_t>& twins);
 
   std::uint32_t vertex_slots() const { return static_cast<std::uint32_t>(mesh_.vertex_count()); }
@@ -77,6 +76,7 @@ class EditableSurface {
   void pair(std::uint32_t a, std::uint32_t b);
   std::uint32_t split_triangle(std::uint32_t half_edge, std::uint32_t middle);
   void remove_triangle(std::uint32_t half_edge);
+  void close_gaps();
 
   TriangleMesh& mesh_;
   std::vector<Triangle> triangles_;
