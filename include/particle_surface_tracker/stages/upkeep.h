@@ -28,8 +28,8 @@ struct UpkeepReport {
 /// Memory that can be kept between calls of keep_up(), so that a call with nothing to do allocates nothing. It never
 /// changes a result, whatever mesh it was used for before.
 struct UpkeepMemory {
-  std::vector<std::uint32_t> twins;      ///< For each half-edge the opposite one, as far as known.
-  std::vector<std::uint8_t> is_suspect;  ///< Blocks of triangles with something to mend.
+  std::vector<std::uint32_t> twins;                  ///< For each half-edge the opposite one, as far as known.
+  std::vector<std::vector<std::uint32_t>> suspects;  ///< Triangles with something to mend, in each block of them.
 };
 
 /// Keeps the triangles of a mesh that moves in shape (Sec. 8): splits long edges, longest first; collapses short ones,

@@ -1,28 +1,14 @@
 #include "candidates.h"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 
 namespace particle_surface_tracker {
-
-namespace {
-
-std::array<double, 3> squared_lengths(const Corners& c) {
-  return {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()};
-}
-
-}  // namespace
 
 bool Candidate::operator<(const Candidate& other) const {
   if (ailment != other.ailment) return ailment > other.ailment;
   if (urgency != other.urgency) return urgency < other.urgency;
   return std::tie(low, high, half_edge) > std::tie(other.low, other.high, other.half_edge);
-}
-
-Corners SurfaceView::corners(std::uint32_t triangle) const {
-  const auto& [a, b, c] = triangles[triangle];
-  return {positions[a].cast<double>(), positions[b].cast<double>(), positions[c].cast<double>()};
 }
 
 std::uint32_t SurfaceView::shortest_edge(std::uint32_t triangle) const {

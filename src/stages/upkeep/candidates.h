@@ -19,6 +19,7 @@ struct Candidate {
   double urgency;           ///< Of one ailment, larger ones come first.
   std::uint32_t low, high;  ///< Vertices of the edge when this was found; they settle ties.
   std::uint32_t half_edge;
+  Vec3f position = Vec3f::Zero();  ///< Where a long edge is to be split [m].
 
   /// Whether the other comes first.
   bool operator<(const Candidate& other) const;
@@ -30,7 +31,10 @@ struct SurfaceView {
   const std::vector<Triangle>& triangles;
   const std::vector<std::uint32_t>& twins;
 
-  Corners corners(std::uint32_t triangle) const;
+  Corners corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangles[triangle];
+    return {positions[a].cast<double>(), positions[b].cast<double>(), positions[c].cast<double>()};
+  }
   std::uint32_t shortest_edge(std::uint32_t triangle) const;
   std::uint32_t longest_edge(std::uint32_t triangle) const;
 };
@@ -45,18 +49,19 @@ void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, Sides 
   const Triangle& vertices = surface.triangles[triangle];
   const Corners corners = surface.corners(triangle);
   const Vec3d normal = area_normal(corners);
+  const std::array<double, 3> squares = squared_lengths(corners);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t h = 3 * triangle + k;
     if (sides == Sides::kLowerHalfEdge && surface.twins[h] < h) continue;
     const std::uint32_t a = vertices[k], b = vertices[(k + 1) % 3];
-    const double squared = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
-    if (tolerances.is_long(a, b, squared)) visit(Ailment::kLongEdge, squared, h);
-    if (tolerances.is_short(a, b, squared)) visit(Ailment::kShortEdge, -squared, h);
+    if (tolerances.is_long(a, b, squares[k])) visit(Ailment::kLongEdge, squares[k], h);
+    if (tolerances.is_short(a, b, squares[k])) visit(Ailment::kShortEdge, -squares[k], h);
     const Vec3d normal_beyond = area_normal(surface.corners(surface.twins[h] / 3));
     if (tolerances.is_folded(a, b, normal, normal_beyond)) {
       visit(Ailment::kFoldedEdge, fold_between(normal, normal_beyond), h);
     }
   }
+  if (!tolerances.may_be_sliver(normal, squares)) return;
   const double sine = sine_of_smallest_angle(corners);
   if (tolerances.is_sliver(vertices, sine)) visit(Ailment::kSliver, -sine, surface.shortest_edge(triangle));
 }

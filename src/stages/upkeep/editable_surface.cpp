@@ -5,6 +5,17 @@
 
 namespace particle_surface_tracker {
 
+namespace {
+
+/// Where the foot of a position on an edge lies: 0 at `from` or before it, 1 at `to` or beyond.
+double share_along_edge(const Vec3d& from, const Vec3d& to, const Vec3d& position) {
+  const Vec3d edge = to - from;
+  const double squared_length = edge.squaredNorm();
+  return squared_length > 0.0 ? std::clamp((position - from).dot(edge) / squared_length, 0.0, 1.0) : 0.5;
+}
+
+}  // namespace
+
 EditableSurface::EditableSurface(TriangleMesh& mesh, std::vector<std::uint32_t>& twins)
     : mesh_(mesh),
       triangles_(mesh.triangles()),
@@ -12,11 +23,6 @@ EditableSurface::EditableSurface(TriangleMesh& mesh, std::vector<std::uint32_t>&
       outgoing_(mesh.vertex_count(), kNoHalfEdge),
       is_fresh_(mesh.vertex_count(), false) {
   for (std::uint32_t h = 0; h < twins_.size(); ++h) outgoing_[start(h)] = h;
-}
-
-Corners EditableSurface::corners(std::uint32_t triangle) const {
-  const auto& [a, b, c] = triangles_[triangle];
-  return {position(a), position(b), position(c)};
 }
 
 std::uint32_t EditableSurface::valence(std::uint32_t vertex) const {
@@ -32,7 +38,9 @@ void EditableSurface::pair(std::uint32_t a, std::uint32_t b) {
 
 std::uint32_t EditableSurface::split(std::uint32_t half_edge, const Vec3f& position) {
   const std::uint32_t other = twin(half_edge);
-  const std::uint32_t middle = mesh_.append_vertex(position, {{start(half_edge), 0.5}, {end(half_edge), 0.5}});
+  const std::uint32_t from = start(half_edge), to = end(half_edge);
+  const double share = share_along_edge(this->position(from), this->position(to), position.cast<double>());
+  const std::uint32_t middle = mesh_.append_vertex(position, {{from, 1.0 - share}, {to, share}});
   is_fresh_.push_back(true);
   const std::uint32_t second_half = split_triangle(half_edge, middle);
   const std::uint32_t second_half_of_other = split_triangle(other, middle);
@@ -66,7 +74,8 @@ void EditableSurface::collapse(std::uint32_t half_edge, const Vec3f& position) {
   remove_triangle(other);
   outgoing_[dropped] = kNoHalfEdge;
   if (position == mesh_.positions()[kept]) return;
-  mesh_.attributes().set_blend(kept, {{dropped, 0.5}, {kept, 0.5}});
+  const double share = share_along_edge(this->position(dropped), this->position(kept), position.cast<double>());
+  mesh_.attributes().set_blend(kept, {{dropped, 1.0 - share}, {kept, share}});
   mesh_.positions()[kept] = position;
   is_fresh_[kept] = true;
 }
@@ -105,13 +114,32 @@ std::vector<std::uint32_t> EditableSurface::finish() {
     if (is_fresh_[v]) fresh.push_back(index);
     ++index;
   }
-  const auto gone =
-      std::remove_if(triangles_.begin(), triangles_.end(), [](const Triangle& t) { return t[0] == kGone; });
-  if (gone != triangles_.end()) twins_.clear();
-  triangles_.erase(gone, triangles_.end());
+  close_gaps();
   mesh_.set_triangles(std::move(triangles_));
   mesh_.remove_unused_vertices();
   return fresh;
+}
+
+/// Moves triangles to where those before them have gone, and their twins with them.
+void EditableSurface::close_gaps() {
+  std::vector<std::uint32_t> new_index(triangles_.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    new_index[t] = count;
+    if (is_alive(t)) ++count;
+  }
+  if (count == triangles_.size()) return;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    if (!is_alive(t)) continue;
+    const std::uint32_t to = new_index[t];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t twin = twins_[3 * t + k];
+      twins_[3 * to + k] = 3 * new_index[twin / 3] + twin % 3;
+    }
+    triangles_[to] = triangles_[t];
+  }
+  triangles_.resize(count);
+  twins_.resize(3 * static_cast<std::size_t>(count));
 }
 
 }  // namespace particle_surface_tracker

@@ -13,8 +13,7 @@ namespace particle_surface_tracker {
 /// around them. Triangles and vertices keep their index until finish(), which closes the gaps.
 class EditableSurface {
  public:
-  /// \param twins as made by pair_half_edges(); kept in step with every operation, and emptied by a finish() that moves
-  /// triangles to other indices.
+  /// \param twins as made by pair_half_edges(); kept in step with every operation and with finish().
   EditableSurface(TriangleMesh& mesh, std::vector<std::uint32_t>& twins);
 
   std::uint32_t vertex_slots() const { return static_cast<std::uint32_t>(mesh_.vertex_count()); }
@@ -25,7 +24,10 @@ class EditableSurface {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<std::uint32_t>& twins() const { return twins_; }
   const Triangle& triangle(std::uint32_t index) const { return triangles_[index]; }
-  Corners corners(std::uint32_t triangle) const;
+  Corners corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {position(a), position(b), position(c)};
+  }
   const Vec3f& stored_position(std::uint32_t vertex) const { return mesh_.positions()[vertex]; }
   Vec3d position(std::uint32_t vertex) const { return mesh_.positions()[vertex].cast<double>(); }
 
@@ -52,12 +54,13 @@ class EditableSurface {
 
   std::uint32_t valence(std::uint32_t vertex) const;
 
-  /// Splits an edge: two triangles become four. The new vertex has a new id and half of each end's attributes.
+  /// Splits an edge: two triangles become four. The new vertex has a new id; its attributes are blended from
+  /// those of the ends, by where along the edge it lies.
   /// \return the new vertex.
   std::uint32_t split(std::uint32_t half_edge, const Vec3f& position);
 
   /// Collapses an edge onto the end of the half-edge: its start and its two triangles go. The end keeps its id; if it
-  /// moves, it gets half of each end's attributes, else it keeps its own.
+  /// moves, its attributes are blended like those of a split, else it keeps its own.
   void collapse(std::uint32_t half_edge, const Vec3f& position);
 
   /// Turns the edge of two triangles so that it connects the two corners that it did not touch.
@@ -73,6 +76,7 @@ class EditableSurface {
   void pair(std::uint32_t a, std::uint32_t b);
   std::uint32_t split_triangle(std::uint32_t half_edge, std::uint32_t middle);
   void remove_triangle(std::uint32_t half_edge);
+  void close_gaps();
 
   TriangleMesh& mesh_;
   std::vector<Triangle> triangles_;

@@ -22,8 +22,9 @@ double smallest_replaced_sine(const EditableSurface& surface, const PlannedPatch
   return smallest;
 }
 
-double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch& patch) {
-  double largest = 0.0;
+/// The largest fold in or around what is replaced, if it is beyond a limit, else that limit.
+double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch& patch, double limit) {
+  double largest = limit;
   for (const std::uint32_t t : patch.replaced) {
     const Vec3d normal = area_normal(surface.corners(t));
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
@@ -46,8 +47,9 @@ Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, c
 
 }  // namespace
 
-bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edge) {
-  std::vector<std::uint32_t> neighbors;
+bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edge,
+                          std::vector<std::uint32_t>& neighbors) {
+  neighbors.clear();
   surface.for_each_outgoing(surface.start(half_edge), [&](std::uint32_t h) { neighbors.push_back(surface.end(h)); });
   std::sort(neighbors.begin(), neighbors.end());
   int common = 0;
@@ -105,22 +107,24 @@ bool keeps_normals(const PlannedPatch& patch) {
 }
 
 bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, const Tolerances& tolerances) {
-  const double before = smallest_replaced_sine(surface, patch);
-  return std::all_of(patch.triangles.begin(), patch.triangles.end(), [&](const PatchTriangle& triangle) {
+  double worst = 1.0;
+  for (const PatchTriangle& triangle : patch.triangles) {
     const double sine = sine_of_smallest_angle(triangle.corners);
-    return sine >= before || !tolerances.is_sliver(triangle.vertices, sine);
-  });
+    if (sine < worst && tolerances.is_sliver(triangle.vertices, sine)) worst = sine;
+  }
+  return worst == 1.0 || worst >= smallest_replaced_sine(surface, patch);
 }
 
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold) {
-  const double limit = std::max(largest_fold, largest_replaced_fold(surface, patch));
+  double largest = 0.0;
   for (const PatchTriangle& triangle : patch.triangles) {
     const Vec3d normal = area_normal(triangle.corners);
     for (std::size_t k = 0; k < 3; ++k) {
-      if (fold_between(normal, normal_beyond(surface, patch, triangle, k)) > limit) return false;
+      const Vec3d beyond = normal_beyond(surface, patch, triangle, k);
+      if (normal.dot(beyond) < 0.0) largest = std::max(largest, fold_between(normal, beyond));
     }
   }
-  return true;
+  return largest <= largest_fold || largest <= largest_replaced_fold(surface, patch, largest_fold);
 }
 
 namespace {
@@ -154,27 +158,46 @@ bool crosses_itself(const std::vector<PatchTriangle>& triangles) {
   return false;
 }
 
+/// The box of a triangle; its corners are stored as floats.
+Eigen::AlignedBox3f box_of(const Corners& corners) {
+  Eigen::AlignedBox3f box;
+  for (const Vec3d& corner : corners) box.extend(corner.cast<float>());
+  return box;
+}
+
 bool crosses_others(const EditableSurface& surface, const std::vector<PatchTriangle>& triangles,
-                    const std::vector<std::uint32_t>& replaced, const Surroundings& surroundings) {
+                    const std::vector<std::uint32_t>& others) {
   return std::any_of(triangles.begin(), triangles.end(), [&](const PatchTriangle& triangle) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3d& corner : triangle.corners) box.extend(corner);
-    return surroundings.find_near(box, [&](std::uint32_t t) {
-      return std::find(replaced.begin(), replaced.end(), t) == replaced.end() &&
-             cross(triangle.vertices, triangle.corners, surface.triangle(t), surface.corners(t));
+    const Eigen::AlignedBox3f box = box_of(triangle.corners);
+    return std::any_of(others.begin(), others.end(), [&](std::uint32_t t) {
+      const Corners corners = surface.corners(t);
+      return box.intersects(box_of(corners)) &&
+             cross(triangle.vertices, triangle.corners, surface.triangle(t), corners);
     });
+  });
+}
+
+/// The triangles whose box meets that of the patch or of what it replaces; without the latter.
+void find_others(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
+                 std::vector<std::uint32_t>& others) {
+  Eigen::AlignedBox3f box;
+  for (const PatchTriangle& triangle : patch.triangles) box.extend(box_of(triangle.corners));
+  for (const std::uint32_t t : patch.replaced) box.extend(box_of(surface.corners(t)));
+  others.clear();
+  surroundings.for_each_near(box, [&](std::uint32_t t) {
+    if (std::find(patch.replaced.begin(), patch.replaced.end(), t) == patch.replaced.end()) others.push_back(t);
   });
 }
 
 }  // namespace
 
-bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings) {
-  if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, patch.replaced, surroundings)) {
-    return true;
-  }
+bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
+                 std::vector<std::uint32_t>& others) {
+  find_others(surface, patch, surroundings, others);
+  if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, others)) return true;
   std::vector<PatchTriangle> before;
-  for (const std::uint32_t t : patch.replaced) before.push_back({surface.triangle(t), surface.corners(t), {}, {}});
-  return crosses_itself(before) || crosses_others(surface, before, patch.replaced, surroundings);
+  for (const std::uint32_t t : patch.replaced) before.push_back({surface.triangle(t), surface.corners(t), Vec3d::Zero(), {}});
+  return crosses_itself(before) || crosses_others(surface, before, others);
 }
 
 }  // namespace particle_surface_tracker

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "editable_surface.h"
 #include "patch.h"
@@ -14,7 +15,9 @@ namespace particle_surface_tracker {
 
 /// The ends of an edge have exactly two neighbours in common, the apexes of its triangles: its collapse keeps a
 /// manifold.
-bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edge);
+/// \param neighbors memory for the search.
+bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edge,
+                          std::vector<std::uint32_t>& neighbors);
 
 /// No two triangles of the patch have the same vertices: a tetrahedron cannot lose a vertex.
 bool has_no_duplicate_triangle(const PlannedPatch& patch);
@@ -39,6 +42,8 @@ bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, con
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold);
 
 /// The patch does not cross itself or the triangles around it, unless what it replaces did so already.
-bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings);
+/// \param others memory for the search.
+bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
+                 std::vector<std::uint32_t>& others);
 
 }  // namespace particle_surface_tracker

@@ -1,5 +1,7 @@
 #include "half_edges.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
@@ -8,34 +10,42 @@ namespace particle_surface_tracker {
 
 namespace {
 
-/// The half-edges in the order of the vertex that they start from: those of vertex v are order[begin[v]] up to
-/// order[begin[v + 1]].
+/// The half-edges in the order of the vertex that they start from: those of vertex v are at begin[v] up to
+/// begin[v + 1].
 struct OutgoingHalfEdges {
+  struct Entry {
+    std::uint32_t end;
+    std::uint32_t half_edge;
+  };
   std::vector<std::uint32_t> begin;
-  std::vector<std::uint32_t> order;
+  std::vector<Entry> entries;
 
   OutgoingHalfEdges(std::size_t vertex_count, const std::vector<Triangle>& triangles)
-      : begin(vertex_count + 2, 0), order(3 * triangles.size()) {
+      : begin(vertex_count + 2, 0), entries(3 * triangles.size()) {
     for (const Triangle& triangle : triangles) {
       for (const std::uint32_t vertex : triangle) ++begin[vertex + 2];
     }
     for (std::size_t v = 2; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    for (std::uint32_t h = 0; h < order.size(); ++h) order[begin[start_of(triangles, h) + 1]++] = h;
+    std::uint32_t h = 0;
+    for (const Triangle& t : triangles) {
+      entries[begin[t[0] + 1]++] = {t[1], h++};
+      entries[begin[t[1] + 1]++] = {t[2], h++};
+      entries[begin[t[2] + 1]++] = {t[0], h++};
+    }
     begin.pop_back();
   }
-};
 
-/// The only half-edge from `from` to `to`, or kNoHalfEdge if there is none or more than one.
-std::uint32_t find_half_edge(const OutgoingHalfEdges& outgoing, const std::vector<Triangle>& triangles,
-                             std::uint32_t from, std::uint32_t to) {
-  std::uint32_t found = kNoHalfEdge;
-  for (std::uint32_t n = outgoing.begin[from]; n < outgoing.begin[from + 1]; ++n) {
-    if (end_of(triangles, outgoing.order[n]) != to) continue;
-    if (found != kNoHalfEdge) return kNoHalfEdge;
-    found = outgoing.order[n];
+  /// The only half-edge from `from` to `to`, or kNoHalfEdge if there is none or more than one.
+  std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
+    std::uint32_t found = kNoHalfEdge;
+    for (std::uint32_t n = begin[from]; n < begin[from + 1]; ++n) {
+      if (entries[n].end != to) continue;
+      if (found != kNoHalfEdge) return kNoHalfEdge;
+      found = entries[n].half_edge;
+    }
+    return found;
   }
-  return found;
-}
+};
 
 /// Number of half-edges that one turn around the start of a half-edge meets.
 std::uint32_t umbrella_size(const std::vector<std::uint32_t>& twins, std::uint32_t half_edge) {
@@ -53,20 +63,29 @@ std::uint32_t umbrella_size(const std::vector<std::uint32_t>& twins, std::uint32
 void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
                      std::vector<std::uint32_t>& twins) {
   const OutgoingHalfEdges outgoing(vertex_count, triangles);
-  twins.resize(outgoing.order.size());
-  for (std::uint32_t h = 0; h < twins.size(); ++h) {
-    const std::uint32_t a = start_of(triangles, h), b = end_of(triangles, h);
-    twins[h] = find_half_edge(outgoing, triangles, b, a);
-    if (twins[h] == kNoHalfEdge || find_half_edge(outgoing, triangles, a, b) != h) {
-      throw MeshError(fmt::format(
-          "the edge between vertices {} and {} does not have one triangle on either side; mesh upkeep needs "
-          "a closed, oriented 2-manifold",
-          a, b));
+  twins.assign(outgoing.entries.size(), kNoHalfEdge);
+  // Every edge is looked up once, from its lower vertex.
+  for (std::uint32_t a = 0; a < vertex_count; ++a) {
+    for (std::uint32_t n = outgoing.begin[a]; n < outgoing.begin[a + 1]; ++n) {
+      const auto [b, h] = outgoing.entries[n];
+      if (b <= a || outgoing.find(a, b) != h) continue;
+      const std::uint32_t twin = outgoing.find(b, a);
+      if (twin == kNoHalfEdge) continue;
+      twins[h] = twin;
+      twins[twin] = h;
     }
+  }
+  const auto unpaired = std::find(twins.begin(), twins.end(), kNoHalfEdge);
+  if (unpaired != twins.end()) {
+    const auto h = static_cast<std::uint32_t>(unpaired - twins.begin());
+    throw MeshError(
+        fmt::format("the edge between vertices {} and {} does not have one triangle on either side; mesh upkeep needs "
+                    "a closed, oriented 2-manifold",
+                    start_of(triangles, h), end_of(triangles, h)));
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
     const std::uint32_t count = outgoing.begin[v + 1] - outgoing.begin[v];
-    if (count > 0 && umbrella_size(twins, outgoing.order[outgoing.begin[v]]) != count) {
+    if (count > 0 && umbrella_size(twins, outgoing.entries[outgoing.begin[v]].half_edge) != count) {
       throw MeshError(
           fmt::format("vertex {} has more than one umbrella of triangles; mesh upkeep needs a 2-manifold", v));
     }

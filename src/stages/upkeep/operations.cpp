@@ -25,9 +25,12 @@ constexpr std::uint32_t kLeastValence = 3;
 Operations::Operations(EditableSurface& surface, const BirthRecords& births, const Tolerances& tolerances, double size)
     : surface_(surface), births_(births), tolerances_(tolerances), size_(size) {}
 
-std::uint32_t Operations::split(std::uint32_t half_edge) {
-  Vec3f position = smooth_position(half_edge);
-  if (is_on_ridge(half_edge) || !may_split_at(half_edge, position)) {
+Vec3f Operations::split_position(std::uint32_t half_edge) const {
+  return is_on_ridge(half_edge) ? edge_midpoint(surface_, half_edge).cast<float>() : smooth_position(half_edge);
+}
+
+std::uint32_t Operations::split(std::uint32_t half_edge, Vec3f position) {
+  if (!may_split_at(half_edge, position)) {
     position = edge_midpoint(surface_, half_edge).cast<float>();
     plan_split(surface_, half_edge, position, patch_);
     if (!has_no_degenerate_triangle(patch_)) return kNone;
@@ -38,7 +41,7 @@ std::uint32_t Operations::split(std::uint32_t half_edge) {
 }
 
 std::uint32_t Operations::collapse(std::uint32_t half_edge) {
-  if (!meets_link_condition(surface_, half_edge)) return kNone;
+  if (!meets_link_condition(surface_, half_edge, indices_)) return kNone;
   const std::uint32_t twin = surface_.twin(half_edge);
   const auto& ids = surface_.mesh().ids();
   // The older vertex is at the end, where it stays.
@@ -124,7 +127,9 @@ bool Operations::may_flip(std::uint32_t half_edge) {
 
 bool Operations::is_clear() {
   if (!surroundings_) surroundings_.emplace(surface_, size_);
-  return stays_clear(surface_, patch_, *surroundings_);
+  if (stays_clear(surface_, patch_, *surroundings_, indices_)) return true;
+  ++crossings_;
+  return false;
 }
 
 double Operations::volume_limit(std::uint32_t half_edge) const {

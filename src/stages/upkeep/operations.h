@@ -16,9 +16,12 @@ class Operations {
   /// \param size cell size h of Γ [m].
   Operations(EditableSurface& surface, const BirthRecords& births, const Tolerances& tolerances, double size);
 
-  /// Splits an edge, on a smooth part where the butterfly scheme says, else at its midpoint.
+  /// Where to split an edge: on a smooth part where the butterfly scheme says, else at its midpoint.
+  Vec3f split_position(std::uint32_t half_edge) const;
+
+  /// Splits an edge at a position, or at its midpoint if the guards do not agree with that.
   /// \return the new vertex, or kNone.
-  std::uint32_t split(std::uint32_t half_edge);
+  std::uint32_t split(std::uint32_t half_edge, Vec3f position);
 
   /// Collapses an edge: onto a ridge or corner vertex, else to where the butterfly scheme puts its middle, else onto
   /// one of its ends.
@@ -27,6 +30,9 @@ class Operations {
 
   /// Flips an edge where that makes the smallest angle of its two triangles larger.
   bool flip(std::uint32_t half_edge);
+
+  /// How often so far an operation was refused because the surface would have crossed itself.
+  std::size_t crossings() const { return crossings_; }
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
@@ -46,6 +52,8 @@ class Operations {
   double size_;
   std::optional<Surroundings> surroundings_;  // made when first needed
   PlannedPatch patch_;
+  std::size_t crossings_ = 0;
+  std::vector<std::uint32_t> indices_;  // memory for searches
 };
 
 }  // namespace particle_surface_tracker

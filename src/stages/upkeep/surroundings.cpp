@@ -18,13 +18,14 @@ Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell)
 }
 
 void Surroundings::enter(std::uint32_t triangle) {
-  const Eigen::AlignedBox3d box = box_of(triangle);
+  Eigen::AlignedBox3f box;
+  for (const std::uint32_t vertex : surface_.triangle(triangle)) box.extend(surface_.stored_position(vertex));
   const double extent = box.sizes().maxCoeff();
   std::size_t level = 0;
   while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
   level_in_use_[level] = true;
   const std::size_t slot = slot_of(cell_of(box.min(), level), level);
-  entries_.push_back({triangle, heads_[slot]});
+  entries_.push_back({box, triangle, heads_[slot]});
   heads_[slot] = static_cast<std::uint32_t>(entries_.size() - 1);
 }
 
@@ -34,14 +35,8 @@ bool Surroundings::has_more_cells_than_entries(const Cell& first, const Cell& la
   return cells > static_cast<double>(entries_.size());
 }
 
-Eigen::AlignedBox3d Surroundings::box_of(std::uint32_t triangle) const {
-  Eigen::AlignedBox3d box;
-  for (const Vec3d& corner : surface_.corners(triangle)) box.extend(corner);
-  return box;
-}
-
-Surroundings::Cell Surroundings::cell_of(const Vec3d& position, std::size_t level) const {
-  const Vec3d scaled = position * inverse_cell_size_[level];
+Surroundings::Cell Surroundings::cell_of(const Vec3f& position, std::size_t level) const {
+  const Vec3d scaled = position.cast<double>() * inverse_cell_size_[level];
   return {static_cast<std::int64_t>(std::floor(scaled.x())), static_cast<std::int64_t>(std::floor(scaled.y())),
           static_cast<std::int64_t>(std::floor(scaled.z()))};
 }

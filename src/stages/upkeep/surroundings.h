@@ -19,30 +19,30 @@ class Surroundings {
   /// \param smallest_cell side of the finest cells [m].
   Surroundings(const EditableSurface& surface, double smallest_cell);
 
-  /// Enters a triangle that is new or has changed. What was entered before may stay: a search looks at triangles as
-  /// they are now.
+  /// Enters a triangle that is new or has changed.
   void enter(std::uint32_t triangle);
 
-  /// Calls visit(triangle) for triangles whose box meets `box`, some maybe twice, until it returns true.
-  /// \return whether it did.
+  /// Calls visit(triangle) for triangles whose box meets `box`, and for a few that have moved since; some maybe twice.
   template <typename Visit>
-  bool find_near(const Eigen::AlignedBox3d& box, Visit&& visit) const {
+  void for_each_near(const Eigen::AlignedBox3f& box, Visit&& visit) const {
     for (std::size_t level = 0; level < kLevels; ++level) {
       if (!level_in_use_[level]) continue;
       // A triangle reaches from its cell into the next at most.
       const Cell first = cell_of(box.min(), level), last = cell_of(box.max(), level);
-      if (has_more_cells_than_entries(first, last)) return find_anywhere(box, visit);
+      if (has_more_cells_than_entries(first, last)) {
+        for (const Entry& entry : entries_) visit_entry(entry, box, visit);
+        return;
+      }
       for (std::int64_t x = first[0] - 1; x <= last[0]; ++x) {
         for (std::int64_t y = first[1] - 1; y <= last[1]; ++y) {
           for (std::int64_t z = first[2] - 1; z <= last[2]; ++z) {
             for (std::uint32_t e = heads_[slot_of({x, y, z}, level)]; e != kEnd; e = entries_[e].next) {
-              if (meets(entries_[e].triangle, box) && visit(entries_[e].triangle)) return true;
+              visit_entry(entries_[e], box, visit);
             }
           }
         }
       }
     }
-    return false;
   }
 
  private:
@@ -51,25 +51,18 @@ class Surroundings {
   static constexpr std::uint32_t kEnd = 0xffffffffU;
 
   struct Entry {
+    Eigen::AlignedBox3f box;  // when it was entered; a triangle that has changed is entered anew
     std::uint32_t triangle;
     std::uint32_t next;
   };
 
   template <typename Visit>
-  bool find_anywhere(const Eigen::AlignedBox3d& box, Visit&& visit) const {
-    for (std::uint32_t t = 0; t < surface_.triangle_slots(); ++t) {
-      if (meets(t, box) && visit(t)) return true;
-    }
-    return false;
-  }
-
-  bool meets(std::uint32_t triangle, const Eigen::AlignedBox3d& box) const {
-    return surface_.is_alive(triangle) && box.intersects(box_of(triangle));
+  void visit_entry(const Entry& entry, const Eigen::AlignedBox3f& box, Visit& visit) const {
+    if (entry.box.intersects(box) && surface_.is_alive(entry.triangle)) visit(entry.triangle);
   }
 
   bool has_more_cells_than_entries(const Cell& first, const Cell& last) const;
-  Eigen::AlignedBox3d box_of(std::uint32_t triangle) const;
-  Cell cell_of(const Vec3d& position, std::size_t level) const;
+  Cell cell_of(const Vec3f& position, std::size_t level) const;
   std::size_t slot_of(const Cell& cell, std::size_t level) const;
 
   const EditableSurface& surface_;

@@ -1,6 +1,5 @@
 #include "tolerances.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace particle_surface_tracker {
@@ -33,22 +32,9 @@ double Tolerances::shortest_edge(std::uint32_t a, std::uint32_t b) const {
   return std::min(collapse_shrinkage_ * births_.shortest_edge(a, b), collapse_length_);
 }
 
-bool Tolerances::is_long(std::uint32_t a, std::uint32_t b, double squared_length) const {
-  if (squared_length <= split_length_ * split_length_) return false;
-  const double limit = longest_edge(a, b);
-  return squared_length > limit * limit;
-}
-
-bool Tolerances::is_short(std::uint32_t a, std::uint32_t b, double squared_length) const {
-  if (squared_length >= collapse_length_ * collapse_length_) return false;
-  const double limit = shortest_edge(a, b);
-  return squared_length < limit * limit || squared_length == 0.0;
-}
-
-bool Tolerances::is_folded(std::uint32_t a, std::uint32_t b, const Vec3d& normal, const Vec3d& other_normal) const {
-  // Nearly all edges are settled by the sign, or without a square root's precision.
-  const double dot = normal.dot(other_normal);
-  if (dot >= 0.0) return false;
+bool Tolerances::is_folded_back(std::uint32_t a, std::uint32_t b, const Vec3d& normal, const Vec3d& other_normal,
+                                double dot) const {
+  // Cheaper than the angle itself.
   if (dot >= cosine_of_fold_angle_ * std::sqrt(normal.squaredNorm() * other_normal.squaredNorm())) return false;
   return fold_between(normal, other_normal) > std::max(fold_angle_, births_.largest_fold(a, b) + kFoldGrowth);
 }

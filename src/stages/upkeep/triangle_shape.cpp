@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 namespace particle_surface_tracker {
 
-Vec3d area_normal(const Corners& corners) {
-  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-}
-
 double sine_of_smallest_angle(const Corners& corners) {
-  std::array<double, 3> squares = {(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
-                                   (corners[0] - corners[2]).squaredNorm()};
+  std::array<double, 3> squares = squared_lengths(corners);
   std::sort(squares.begin(), squares.end());
   if (squares[1] == 0.0) return 0.0;
   // The smallest angle lies between the two longer edges.

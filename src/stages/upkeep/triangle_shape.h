@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include <Eigen/Geometry>
+
 #include "particle_surface_tracker/core/types.h"
 
 namespace particle_surface_tracker {
@@ -9,7 +11,14 @@ namespace particle_surface_tracker {
 using Corners = std::array<Vec3d, 3>;
 
 /// Normal of a triangle, as long as twice its area.
-Vec3d area_normal(const Corners& corners);
+inline Vec3d area_normal(const Corners& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+}
+
+/// Squared lengths of the edges from corner k to the next.
+inline std::array<double, 3> squared_lengths(const Corners& c) {
+  return {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()};
+}
 
 /// Sine of the smallest angle of a triangle; 0 for a degenerate one.
 double sine_of_smallest_angle(const Corners& corners);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <queue>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -47,20 +48,21 @@ void update_twins(const TriangleMesh& mesh, std::vector<std::uint32_t>& twins) {
   if (!fit) pair_half_edges(mesh.vertex_count(), mesh.triangles(), twins);
 }
 
-/// Marks the blocks of triangles in which something calls for an operation.
+/// Finds the triangles in which something calls for an operation.
 /// \return whether there are any.
 bool find_suspects(const TriangleMesh& mesh, const Tolerances& tolerances, UpkeepMemory& memory) {
-  memory.is_suspect.assign(block_count(mesh), 0);
+  memory.suspects.resize(std::max<std::size_t>(memory.suspects.size(), block_count(mesh)));
+  for (auto& block : memory.suspects) block.clear();
   const SurfaceView surface{mesh.positions(), mesh.triangles(), memory.twins};
   for_each_block(mesh, [&](std::uint32_t block, std::uint32_t first, std::uint32_t last) {
-    bool is_suspect = false;
-    for (std::uint32_t t = first; t < last && !is_suspect; ++t) {
-      for_each_ailment(surface, t, Sides::kLowerHalfEdge, tolerances,
-                       [&](Ailment, double, std::uint32_t) { is_suspect = true; });
+    std::vector<std::uint32_t>& suspects = memory.suspects[block];
+    for (std::uint32_t t = first; t < last; ++t) {
+      for_each_ailment(surface, t, Sides::kLowerHalfEdge, tolerances, [&](Ailment, double, std::uint32_t) {
+        if (suspects.empty() || suspects.back() != t) suspects.push_back(t);
+      });
     }
-    memory.is_suspect[block] = is_suspect ? 1 : 0;
   });
-  return std::find(memory.is_suspect.begin(), memory.is_suspect.end(), 1) != memory.is_suspect.end();
+  return std::any_of(memory.suspects.begin(), memory.suspects.end(), [](const auto& block) { return !block.empty(); });
 }
 
 /// Works through what calls for an operation, and through what that leads to.
@@ -71,20 +73,16 @@ class Upkeep {
       : surface_(mesh, memory.twins),
         tolerances_(tolerances),
         operations_(surface_, births, tolerances, parameters.dx_gamma * parameters.particle_spacing),
-        is_suspect_(memory.is_suspect),
+        suspects_(memory.suspects),
+        changed_at_(mesh.vertex_count(), 0),
         attempts_left_(kAttemptsPerTriangle * mesh.triangle_count() + kLeastAttempts) {}
 
   UpkeepReport run() {
-    enqueue_suspects();
-    // What was refused may have become possible through what was done after it.
-    for (int pass = 0; pass < kMaxPasses; ++pass) {
-      const std::size_t done_before = done_;
-      work_through_queue();
-      if (done_ == done_before || refused_.empty()) break;
-      if (pass + 1 == kMaxPasses) break;
-      for (const Candidate& candidate : refused_) queue_.push(candidate);
-      refused_.clear();
+    for (const auto& block : suspects_) {
+      for (const std::uint32_t t : block) enqueue_triangle(t, Sides::kLowerHalfEdge);
     }
+    work_through_queue();
+    for (int pass = 1; pass < kMaxPasses && enqueue_what_may_have_become_possible(); ++pass) work_through_queue();
     report_.refused = refused_.size();
     if (done_ > 0) report_.fresh = surface_.finish();
     return std::move(report_);
@@ -96,28 +94,45 @@ class Upkeep {
   static constexpr std::size_t kAttemptsPerTriangle = 20;
   static constexpr std::size_t kLeastAttempts = 100000;
 
+  /// A candidate that no operation could mend.
+  struct Refusal {
+    Candidate candidate;
+    std::size_t done;  ///< Operations done before it.
+    bool would_cross;  ///< Whether something else was in the way, which may be far away along the surface.
+  };
+
   SurfaceView view() const { return {surface_.mesh().positions(), surface_.triangles(), surface_.twins()}; }
 
+  /// Edges are named by the lower of their half-edges.
   Candidate candidate(Ailment ailment, double urgency, std::uint32_t half_edge) const {
     const auto [low, high] = std::minmax({surface_.start(half_edge), surface_.end(half_edge)});
+    if (ailment != Ailment::kSliver) half_edge = std::min(half_edge, surface_.twin(half_edge));
     return {ailment, urgency, low, high, half_edge};
-  }
-
-  void enqueue_suspects() {
-    for (std::uint32_t t = 0; t < surface_.triangle_slots(); ++t) {
-      if (is_suspect_[t / kTrianglesPerBlock] == 0) continue;
-      enqueue_triangle(t, Sides::kLowerHalfEdge);
-    }
   }
 
   void enqueue_triangle(std::uint32_t triangle, Sides sides) {
     for_each_ailment(view(), triangle, sides, tolerances_, [&](Ailment ailment, double urgency, std::uint32_t h) {
-      queue_.push(candidate(ailment, urgency, h));
+      if (ailment == Ailment::kLongEdge) {
+        long_edges_.push_back(candidate(ailment, urgency, h));
+      } else {
+        queue_.push(candidate(ailment, urgency, h));
+      }
     });
   }
 
   void enqueue_around(std::uint32_t vertex) {
     surface_.for_each_outgoing(vertex, [&](std::uint32_t h) { enqueue_triangle(h / 3, Sides::kBoth); });
+  }
+
+  /// Long edges are split in rounds, each as one step of subdivision: the new positions follow from the vertices
+  /// before the round. Else the butterfly would look at halves of edges next to whole ones, which it is not made for.
+  void begin_round_of_splits() {
+    for (Candidate& edge : long_edges_) {
+      if (!is_current(edge)) continue;
+      edge.position = operations_.split_position(edge.half_edge);
+      queue_.push(edge);
+    }
+    long_edges_.clear();
   }
 
   /// Whether a candidate is still what it was when it was queued.
@@ -133,23 +148,70 @@ class Upkeep {
   }
 
   void work_through_queue() {
-    while (!queue_.empty() && attempts_left_ > 0) {
+    while (attempts_left_ > 0) {
+      if (!long_edges_.empty() && (queue_.empty() || queue_.top().ailment != Ailment::kLongEdge)) {
+        begin_round_of_splits();
+      }
+      if (queue_.empty()) return;
       const Candidate next = queue_.top();
-      queue_.pop();
+      // What was queued twice comes twice in a row.
+      while (!queue_.empty() && !(queue_.top() < next)) queue_.pop();
       if (!is_current(next)) continue;
       --attempts_left_;
+      const std::size_t crossings_before = operations_.crossings();
       if (mend(next)) {
         ++done_;
       } else {
-        refused_.push_back(next);
+        refused_.push_back({next, done_, operations_.crossings() > crossings_before});
       }
     }
+  }
+
+  /// What was refused may have become possible through what was done after it.
+  /// \return whether there is anything to try again.
+  bool enqueue_what_may_have_become_possible() {
+    const std::size_t before = refused_.size();
+    std::vector<Refusal> remaining;
+    for (const Refusal& refusal : refused_) {
+      const Candidate& candidate = refusal.candidate;
+      if (!is_current(candidate)) continue;
+      if (refusal.done < done_ && (refusal.would_cross || has_changed_since(refusal))) {
+        if (candidate.ailment == Ailment::kLongEdge) {
+          long_edges_.push_back(candidate);
+        } else {
+          queue_.push(candidate);
+        }
+      } else {
+        remaining.push_back(refusal);
+      }
+    }
+    refused_ = std::move(remaining);
+    return refused_.size() < before && !(queue_.empty() && long_edges_.empty());
+  }
+
+  /// Whether anything that the guards of a refused candidate look at has changed, but for other parts of the surface.
+  bool has_changed_since(const Refusal& refusal) const {
+    bool has_changed = false;
+    const std::uint32_t h = refusal.candidate.half_edge;
+    const auto ask = [&](std::uint32_t around) {
+      has_changed = has_changed || changed_at_[surface_.end(around)] > refusal.done;
+    };
+    surface_.for_each_outgoing(surface_.start(h), ask);
+    surface_.for_each_outgoing(surface_.end(h), ask);
+    return has_changed;
+  }
+
+  /// Notes that the triangles around a vertex have changed through the operation that is being done.
+  void note_change_around(std::uint32_t vertex) {
+    changed_at_.resize(surface_.vertex_slots(), 0);
+    changed_at_[vertex] = done_ + 1;
+    surface_.for_each_outgoing(vertex, [&](std::uint32_t h) { changed_at_[surface_.end(h)] = done_ + 1; });
   }
 
   bool mend(const Candidate& candidate) {
     switch (candidate.ailment) {
       case Ailment::kLongEdge:
-        return split(candidate.half_edge);
+        return split(candidate);
       case Ailment::kShortEdge:
         return collapse(candidate.half_edge, report_.collapses);
       case Ailment::kFoldedEdge:
@@ -160,10 +222,11 @@ class Upkeep {
     return false;
   }
 
-  bool split(std::uint32_t half_edge) {
-    const std::uint32_t vertex = operations_.split(half_edge);
+  bool split(const Candidate& candidate) {
+    const std::uint32_t vertex = operations_.split(candidate.half_edge, candidate.position);
     if (vertex == Operations::kNone) return false;
     ++report_.splits;
+    note_change_around(vertex);
     enqueue_around(vertex);
     return true;
   }
@@ -172,6 +235,7 @@ class Upkeep {
     const std::uint32_t vertex = operations_.collapse(half_edge);
     if (vertex == Operations::kNone) return false;
     ++count;
+    note_change_around(vertex);
     enqueue_around(vertex);
     return true;
   }
@@ -180,6 +244,7 @@ class Upkeep {
     const std::uint32_t twin = surface_.twin(half_edge);
     if (!operations_.flip(half_edge)) return false;
     ++report_.flips;
+    for (const std::uint32_t h : {half_edge, twin}) note_change_around(surface_.start(h));
     enqueue_triangle(half_edge / 3, Sides::kBoth);
     enqueue_triangle(twin / 3, Sides::kBoth);
     return true;
@@ -194,9 +259,11 @@ class Upkeep {
   EditableSurface surface_;
   const Tolerances& tolerances_;
   Operations operations_;
-  const std::vector<std::uint8_t>& is_suspect_;
+  const std::vector<std::vector<std::uint32_t>>& suspects_;
   std::priority_queue<Candidate> queue_;
-  std::vector<Candidate> refused_;
+  std::vector<Candidate> long_edges_;  // of the next round
+  std::vector<Refusal> refused_;
+  std::vector<std::size_t> changed_at_;  // per vertex: number of the last operation that changed a triangle around it
   std::size_t attempts_left_;
   std::size_t done_ = 0;
   UpkeepReport report_;
