@@ -10,6 +10,7 @@
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 #include "particle_surface_tracker/stages/remeshing.h"
 #include "particle_surface_tracker/stages/topology_matching.h"
+#include "particle_surface_tracker/stages/untangling.h"
 #include "stages/matching/field_at_nodes.h"
 
 namespace particle_surface_tracker {
@@ -63,6 +64,27 @@ void describe(const RemeshingReport& remeshed, FrameReport& report) {
   }
 }
 
+/// All vertices that are new or have moved.
+/// \param first_new_id new vertices have ids from here on.
+/// \param relaxed_ids ids of vertices that have moved, by position in the mesh; some may have gone. Ids increase with it.
+/// \param moved vertices that have moved or are new: increasing indices.
+std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_t first_new_id,
+                                          const std::vector<std::uint32_t>& relaxed_ids,
+                                          const std::vector<std::uint32_t>& moved) {
+  std::vector<std::uint32_t> fresh;
+  auto next_id = relaxed_ids.begin();
+  auto next_moved = moved.begin();
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const std::uint32_t id = mesh.ids()[v];
+    while (next_id != relaxed_ids.end() && *next_id < id) ++next_id;
+    const bool was_relaxed = next_id != relaxed_ids.end() && *next_id == id;
+    const bool has_moved = next_moved != moved.end() && *next_moved == v;
+    if (has_moved) ++next_moved;
+    if (id >= first_new_id || was_relaxed || has_moved) fresh.push_back(v);
+  }
+  return fresh;
+}
+
 }  // namespace
 
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
@@ -87,24 +109,23 @@ double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const
     timer.begin("remeshing");
     describe(remesh(mesh, lattice, request), report);
   }
-  timer.begin("upkeep");
+  timer.begin("untangling");
   const std::uint32_t first_upkeep_id = mesh.next_id();
   std::vector<std::uint32_t> remeshed;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.ids()[v] >= first_new_id) remeshed.push_back(v);
   }
   forget_birth(mesh, remeshed);
+  const UntanglingReport relaxed = untangle(mesh, memory);
+  std::vector<std::uint32_t> relaxed_ids;
+  relaxed_ids.reserve(relaxed.moved.size());
+  for (const std::uint32_t v : relaxed.moved) relaxed_ids.push_back(mesh.ids()[v]);
+  timer.begin("upkeep");
   const UpkeepReport kept = keep_up(mesh, parameters, memory);
   report.upkeep = {kept.splits, kept.collapses + kept.fold_collapses + kept.sliver_collapses, kept.flips, kept.refused};
 
-  std::vector<std::uint32_t> fresh;
-  auto moved = kept.fresh.begin();
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    const bool has_moved = moved != kept.fresh.end() && *moved == v;
-    if (has_moved) ++moved;
-    if (has_moved || mesh.ids()[v] >= first_new_id) fresh.push_back(v);
-  }
-  return measure_fresh_delta(mesh, fresh, first_new_id, first_upkeep_id, surface, parameters, report, timer);
+  return measure_fresh_delta(mesh, fresh_vertices(mesh, first_new_id, relaxed_ids, kept.fresh), first_new_id,
+                             first_upkeep_id, surface, parameters, report, timer);
 }
 
 }  // namespace particle_surface_tracker

@@ -1,7 +1,8 @@
 #include "crossing_search.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -13,6 +14,9 @@ namespace {
 
 /// Triangles that one task looks at.
 constexpr std::size_t kTrianglesPerTask = 256;
+
+/// A bound on the relative error of a height above a plane.
+constexpr double kRounding = 1e-13;
 
 struct Box {
   Vec3f low, high;
@@ -29,6 +33,22 @@ Corners corners_of(const ConnectedTriangles& mesh, std::uint32_t triangle, std::
           mesh.positions[t[(first + 2) % 3]].cast<double>()};
 }
 
+/// Whether some corners of a triangle, from `begin` on, are all on one side of the plane of another one, by more than
+/// rounding can be wrong.
+bool lies_beside(const Corners& triangle, std::size_t begin, const Corners& plane) {
+  const Vec3d normal = area_normal(plane);
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest(), farthest = 0.0;
+  for (std::size_t k = begin; k < 3; ++k) {
+    const Vec3d offset = triangle[k] - plane[0];
+    const double height = normal.dot(offset);
+    low = std::min(low, height);
+    high = std::max(high, height);
+    farthest = std::max(farthest, offset.squaredNorm());
+  }
+  const double rounding = kRounding * std::sqrt(normal.squaredNorm() * farthest);
+  return low > rounding || high < -rounding;
+}
+
 bool cross(const ConnectedTriangles& mesh, std::uint32_t one, std::uint32_t other) {
   std::size_t shared = 0, in_one = 0, in_other = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -41,6 +61,7 @@ bool cross(const ConnectedTriangles& mesh, std::uint32_t one, std::uint32_t othe
   }
   if (shared > 1) return false;
   const Corners first = corners_of(mesh, one, in_one), second = corners_of(mesh, other, in_other);
+  if (lies_beside(second, shared, first) || lies_beside(first, shared, second)) return false;
   return shared == 0 ? triangles_touch(first, second) : triangles_cross_at_shared_corner(first, second);
 }
 
@@ -92,6 +113,19 @@ std::vector<CrossingPair> find_crossings(const ConnectedTriangles& mesh, const s
   std::vector<CrossingPair> pairs;
   for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
   return pairs;
+}
+
+bool find_crossing(const ConnectedTriangles& mesh, const std::vector<std::uint32_t>& around, CrossingPair& pair) {
+  if (pair.first != pair.second && cross(mesh, pair.first, pair.second)) return true;
+  Neighborhood neighborhood(mesh);
+  for (const std::uint32_t triangle : around) {
+    for (const std::uint32_t other : neighborhood.find(triangle)) {
+      if (other == triangle || !cross(mesh, triangle, other)) continue;
+      pair = {triangle, other};
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace particle_surface_tracker

@@ -35,4 +35,9 @@ using CrossingPair = std::pair<std::uint32_t, std::uint32_t>;
 /// \return pairs (one of `around`, another one), by the first; the same for any number of threads.
 std::vector<CrossingPair> find_crossings(const ConnectedTriangles& mesh, const std::vector<std::uint32_t>& around);
 
+/// As find_crossings(), but ends with the first that is found.
+/// \param pair tried first; receives what was found.
+/// \return whether there is one.
+bool find_crossing(const ConnectedTriangles& mesh, const std::vector<std::uint32_t>& around, CrossingPair& pair);
+
 }  // namespace particle_surface_tracker

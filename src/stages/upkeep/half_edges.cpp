@@ -1,8 +1,11 @@
 #include "half_edges.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "particle_surface_tracker/core/error.h"
 
@@ -101,6 +104,19 @@ bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::ui
     }
   }
   return true;
+}
+
+void update_twins(std::size_t vertex_count, const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& twins) {
+  std::atomic<bool> fit = twins.size() == 3 * triangles.size();
+  if (fit) {
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(triangles.size()), 2048),
+                      [&](const auto& range) {
+                        for (std::uint32_t t = range.begin(); t != range.end() && fit; ++t) {
+                          if (!twins_fit(triangles, twins, t)) fit = false;
+                        }
+                      });
+  }
+  if (!fit) pair_half_edges(vertex_count, triangles, twins);
 }
 
 }  // namespace particle_surface_tracker

@@ -38,4 +38,7 @@ void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& tria
 /// for pairs that belong to other triangles.
 bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins, std::uint32_t triangle);
 
+/// As pair_half_edges(), unless `twins` are those of these triangles already.
+void update_twins(std::size_t vertex_count, const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& twins);
+
 }  // namespace particle_surface_tracker

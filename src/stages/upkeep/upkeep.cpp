@@ -1,7 +1,6 @@
 #include "particle_surface_tracker/stages/upkeep.h"
 
 #include <algorithm>
-#include <atomic>
 #include <queue>
 #include <utility>
 
@@ -33,19 +32,6 @@ void for_each_block(const TriangleMesh& mesh, Visit&& visit) {
     const std::uint32_t first = block * kTrianglesPerBlock;
     visit(block, first, std::min(first + kTrianglesPerBlock, triangles));
   });
-}
-
-/// Makes the twins of the mesh's half-edges unless those in memory are that.
-void update_twins(const TriangleMesh& mesh, std::vector<std::uint32_t>& twins) {
-  std::atomic<bool> fit = twins.size() == 3 * mesh.triangle_count();
-  if (fit) {
-    for_each_block(mesh, [&](std::uint32_t, std::uint32_t first, std::uint32_t last) {
-      for (std::uint32_t t = first; t < last && fit; ++t) {
-        if (!twins_fit(mesh.triangles(), twins, t)) fit = false;
-      }
-    });
-  }
-  if (!fit) pair_half_edges(mesh.vertex_count(), mesh.triangles(), twins);
 }
 
 /// Finds the triangles in which something calls for an operation.
@@ -272,7 +258,7 @@ class Upkeep {
 }  // namespace
 
 UpkeepReport keep_up(TriangleMesh& mesh, const Parameters& parameters, UpkeepMemory& memory) {
-  update_twins(mesh, memory.twins);
+  update_twins(mesh.vertex_count(), mesh.triangles(), memory.twins);
   BirthRecords births(mesh);
   if (!births.all_noted()) births.note_missing(memory.twins);
   const Tolerances tolerances(births, parameters);
