@@ -62,12 +62,13 @@ const TriangleMesh& detailed_mesh() {
   return mesh;
 }
 
-/// The detailed body with every vertex moved by up to `amount` of its edges' length, at random.
+/// A sphere and a torus with every vertex moved by up to `amount` of its edges' length, at random.
 TriangleMesh make_soup(std::uint32_t seed, double amount) {
-  TriangleMesh mesh = detailed_mesh();
+  TriangleMesh mesh =
+      test::joined({test::make_sphere({0, 0, 0}, 0.6, 5), test::make_torus({0.9, 0.1, 0.2}, 0.5, 0.16, 96, 32)});
   note_birth(mesh);
   std::mt19937 random(seed);
-  const double edge = 0.1 / 3.0;
+  const double edge = 0.033;
   test::move_vertices(mesh, [&](const Vec3d& x) {
     Vec3d shift;
     for (double& s : shift) s = static_cast<double>(random()) / 2147483648.0 - 1.0;
@@ -213,21 +214,45 @@ TEST(Upkeep, KeepsRidgesWhenItCollapsesAndTheKeptVertexUntouched) {
   EXPECT_NEAR(test::volume_of(mesh), 4.0 / 3.0, 1e-6);
 }
 
-TEST(Upkeep, PutsNewVerticesOnTheSmoothSurface) {
+/// Distances of new vertices to the surface that they belong to.
+struct Offsets {
+  double mean = 0.0, largest = 0.0;
+
+  template <typename Distance>
+  Offsets(const TriangleMesh& mesh, const UpkeepReport& report, Distance&& distance) {
+    for (const std::uint32_t v : report.fresh) {
+      const double offset = std::abs(distance(Vec3d(mesh.positions()[v].cast<double>())));
+      mean += offset / static_cast<double>(report.fresh.size());
+      largest = std::max(largest, offset);
+    }
+  }
+};
+
+TEST(Upkeep, PutsNewVerticesOnTheSmoothSurfaceOfARegularMesh) {
+  TriangleMesh mesh = test::make_torus(Vec3d::Zero(), 1.0, 0.4, 100, 40);
+  note_birth(mesh);
+  scale(mesh, Vec3d::Constant(2.0625));
+  const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.05));
+  EXPECT_EQ(report.splits, 4000U) << "the longest edge of every vertex: the diagonals, each once";
+  const Offsets offsets(mesh, report, [](const Vec3d& x) {
+    return std::hypot(std::hypot(x.x(), x.y()) - 2.0625, x.z()) - 0.4 * 2.0625;
+  });
+  // The middles of the diagonals lie up to 3.0e-3 below the surface.
+  EXPECT_LT(offsets.largest, 3e-5);
+}
+
+TEST(Upkeep, PutsNewVerticesNearTheSmoothSurfaceOfAnIrregularMesh) {
   TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 1.0, 4);
   note_birth(mesh);
   scale(mesh, Vec3d::Constant(2.5));
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.1));
   ASSERT_GT(report.splits, 1000U);
-  // The middles of the edges lie up to 0.0046 below the sphere, 0.0036 on average.
-  double mean = 0.0, largest = 0.0;
-  for (const std::uint32_t v : report.fresh) {
-    const double offset = std::abs(mesh.positions()[v].cast<double>().norm() - 2.5);
-    mean += offset / static_cast<double>(report.fresh.size());
-    largest = std::max(largest, offset);
-  }
-  EXPECT_LT(mean, 1e-4);
-  EXPECT_LT(largest, 1.5e-3) << "next to the six vertices of valence 4";
+  const Offsets offsets(mesh, report, [](const Vec3d& x) { return x.norm() - 2.5; });
+  // The middles of the edges lie up to 4.6e-3 below the sphere, 3.6e-3 on average. The butterfly is not exact here: the
+  // triangles change their shape abruptly where the octahedron had its edges, and what is split again has a vertex of
+  // valence 4 with unequal edges.
+  EXPECT_LT(offsets.mean, 7e-4);
+  EXPECT_LT(offsets.largest, 3.5e-3);
 }
 
 TEST(Upkeep, AttributesFollowAndUntouchedVerticesKeepEverything) {
@@ -241,10 +266,10 @@ TEST(Upkeep, AttributesFollowAndUntouchedVerticesKeepEverything) {
   note_birth(mesh);
   const TriangleMesh before = mesh;
   const Vec3d center = test::DetailedBody(0.1).center();
-  // Only one side is drawn out.
+  // Only one side is drawn out, to four times its length at the far end.
   test::move_vertices(mesh, [&](const Vec3d& x) {
     const double out = x.x() - center.x();
-    return Vec3d(x + (out > 0.0 ? 6.0 * out * out / 0.3 : 0.0) * Vec3d::UnitX());
+    return Vec3d(x + (out > 0.0 ? out * out : 0.0) * Vec3d::UnitX());
   });
   const TriangleMesh moved = mesh;
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.05));

@@ -10,6 +10,10 @@ namespace particle_surface_tracker {
 
 namespace {
 
+/// A collapse may leave a sliver behind whose angle is this part of the worst one before: two triangles go, and the next
+/// collapse may take it away. Held to 1, half of all short edges stay, and their neighbours with them.
+constexpr double kAngleLoss = 0.5;
+
 double six_volumes(const Corners& corners, const Vec3d& origin) {
   return (corners[0] - origin).dot((corners[1] - origin).cross(corners[2] - origin));
 }
@@ -112,7 +116,7 @@ bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, con
     const double sine = sine_of_smallest_angle(triangle.corners);
     if (sine < worst && tolerances.is_sliver(triangle.vertices, sine)) worst = sine;
   }
-  return worst == 1.0 || worst >= smallest_replaced_sine(surface, patch);
+  return worst == 1.0 || worst >= kAngleLoss * smallest_replaced_sine(surface, patch);
 }
 
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold) {

@@ -35,7 +35,7 @@ bool keeps_volume(const EditableSurface& surface, const PlannedPatch& patch, dou
 /// No triangle turns its front away.
 bool keeps_normals(const PlannedPatch& patch);
 
-/// No triangle becomes a sliver, or none worse than the worst one before.
+/// No triangle becomes a sliver, or none with less than half the smallest angle before.
 bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, const Tolerances& tolerances);
 
 /// No edge in or around the patch becomes folded, or none worse than the worst one before.

@@ -63,6 +63,11 @@ std::uint32_t Operations::collapse(std::uint32_t half_edge) {
   if (older_rank == 1 && younger_rank == 1 && collapse_to(onto_older, smooth_position(onto_older))) return older;
   if (older_rank >= younger_rank && collapse_to(onto_older, older_position)) return older;
   if (younger_rank >= older_rank && collapse_to(onto_younger, younger_position)) return younger;
+  // Around needles and folds the ranks say little: before the edge is left as it is, any place will do that the guards
+  // agree with.
+  if (older_rank + younger_rank > 2 && collapse_to(onto_older, smooth_position(onto_older))) return older;
+  if (older_rank < younger_rank && collapse_to(onto_older, older_position)) return older;
+  if (younger_rank < older_rank && collapse_to(onto_younger, younger_position)) return younger;
   return kNone;
 }
 
@@ -126,7 +131,7 @@ bool Operations::may_flip(std::uint32_t half_edge) {
 }
 
 bool Operations::is_clear() {
-  if (!surroundings_) surroundings_.emplace(surface_, size_);
+  if (!surroundings_) surroundings_.emplace(surface_, 2.0 * size_);
   if (stays_clear(surface_, patch_, *surroundings_, indices_)) return true;
   ++crossings_;
   return false;

@@ -24,7 +24,7 @@ class Operations {
   std::uint32_t split(std::uint32_t half_edge, Vec3f position);
 
   /// Collapses an edge: onto a ridge or corner vertex, else to where the butterfly scheme puts its middle, else onto
-  /// one of its ends.
+  /// one of its ends; if the guards agree with none of these, to another of these places.
   /// \return the vertex that is left, or kNone.
   std::uint32_t collapse(std::uint32_t half_edge);
 
