@@ -35,8 +35,10 @@ bool FrameQueue::begins_run(const ReceivedFrame& frame) {
   switch (arrivals_.judge(frame.header).verdict) {
     case InputSequence::Verdict::kFirst:
     case InputSequence::Verdict::kWentBack:
-    case InputSequence::Verdict::kOtherFrameId: return true;
-    default: return false;
+    case InputSequence::Verdict::kOtherFrameId:
+      return true;
+    default:
+      return false;
   }
 }
 

@@ -33,8 +33,8 @@ struct ReceivedFrame {
   std::chrono::steady_clock::time_point arrival = std::chrono::steady_clock::now();
 };
 
-/// Hands frames, and commands that go first, from the callbacks to the one thread that tracks. Frames that are not going
-/// to be tracked keep their place in the row, without their data, so that every frame is answered in order.
+/// Hands frames, and commands that go first, from the callbacks to the one thread that tracks. Frames that are not
+/// going to be tracked keep their place in the row, without their data, so that every frame is answered in order.
 class FrameQueue {
  public:
   using Command = std::function<void()>;
