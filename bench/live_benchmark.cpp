@@ -1,5 +1,5 @@
-// What the live node adds to the time of tracking: particles and mesh in one nodelet manager, all in this process. Also the
-// ways from a message to a particle frame. Needs a master: live_benchmark.launch.
+// What the live node adds to the time of tracking: particles and mesh in one nodelet manager, all in this process. Also
+// the ways from a message to a particle frame. Needs a master: live_benchmark.launch.
 
 #include <algorithm>
 #include <chrono>
@@ -27,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSpacing = 0.0483;
+constexpr double kSpacing = 0.0469;
 constexpr int kFrames = 40;
 
 // A torus of about 28,000 particles and 60,000 triangles.
@@ -56,13 +56,14 @@ template <typename Message>
 class Arrivals {
  public:
   explicit Arrivals(const std::string& topic) {
-    subscriber_ = ros::NodeHandle().subscribe<Message>(topic, 100, [this](const boost::shared_ptr<const Message>& message) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      last_ = message;
-      time_ = Clock::now();
-      ++count_;
-      arrived_.notify_all();
-    });
+    subscriber_ =
+        ros::NodeHandle().subscribe<Message>(topic, 100, [this](const boost::shared_ptr<const Message>& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          last_ = message;
+          time_ = Clock::now();
+          ++count_;
+          arrived_.notify_all();
+        });
     while (subscriber_.getNumPublishers() == 0) ros::WallDuration(0.01).sleep();
   }
 
@@ -111,10 +112,11 @@ void measure_transport(const ParticleFrame& particles) {
       added.push_back(elapsed.count() - statuses.last()->tracking_time);
       tracking.push_back(statuses.last()->tracking_time);
     }
-    std::printf("%zu particles, %zu triangles, one manager: tracking %.1f ms, the way in and out adds %.2f ms "
-                "(median; least %.2f, greatest %.2f)\n",
-                particles.size(), meshes.last()->triangles.size() / 3, 1e3 * median(tracking), 1e3 * median(added),
-                1e3 * *std::min_element(added.begin(), added.end()), 1e3 * *std::max_element(added.begin(), added.end()));
+    std::printf(
+        "%zu particles, %zu triangles, one manager: tracking %.1f ms, the way in and out adds %.2f ms "
+        "(median; least %.2f, greatest %.2f)\n",
+        particles.size(), meshes.last()->triangles.size() / 3, 1e3 * median(tracking), 1e3 * median(added),
+        1e3 * *std::min_element(added.begin(), added.end()), 1e3 * *std::max_element(added.begin(), added.end()));
   }
   manager.unload("/tracker");
 }

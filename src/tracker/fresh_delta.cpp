@@ -73,10 +73,10 @@ double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>&
     largest = std::max(largest, std::abs(static_cast<double>(deltas[n])));
   }
   if (lost > 0) {
-    report.warnings.push_back(
-        fmt::format("{} of {} new vertices have no implicit surface near them; their δ is that of the surface that they "
-                    "replace",
-                    lost, vertices.size()));
+    report.warnings.push_back(fmt::format(
+        "{} of {} new vertices have no implicit surface near them; their δ is that of the surface that they "
+        "replace",
+        lost, vertices.size()));
   }
   return largest;
 }

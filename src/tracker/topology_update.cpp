@@ -88,7 +88,7 @@ std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_
 }  // namespace
 
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                     const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
+                       const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
   const double h = parameters.dx_gamma * parameters.particle_spacing;
   const std::uint32_t first_new_id = mesh.next_id();
   {

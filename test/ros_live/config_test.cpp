@@ -27,8 +27,8 @@ TrackerConfig::AbstractParamDescriptionConstPtr find(const std::string& name) {
 // The line of cfg/Tracker.cfg that a number needs.
 std::string line_of(const ParameterInfo& info) {
   return fmt::format("group.add(\"{}\", {}_t, {}, \"{}{}\", {})", info.name, type_of(info),
-                     info.needs_reset ? "RESET" : "LIVE", info.text,
-                     info.unit.empty() ? "" : " [" + info.unit + "]", get_parameter(Parameters(), info.name));
+                     info.needs_reset ? "RESET" : "LIVE", info.text, info.unit.empty() ? "" : " [" + info.unit + "]",
+                     get_parameter(Parameters(), info.name));
 }
 
 TEST(Config, HasEveryParameterOfTheTable) {
@@ -48,7 +48,8 @@ TEST(Config, HasEveryParameterOfTheTable) {
       EXPECT_NE(description->edit_method.find("'" + value + "'"), std::string::npos) << info.name << ": " << value;
     }
   }
-  EXPECT_EQ(TrackerConfig::__getParamDescriptions__().size(), count) << "cfg/Tracker.cfg has one that the table has not";
+  EXPECT_EQ(TrackerConfig::__getParamDescriptions__().size(), count)
+      << "cfg/Tracker.cfg has one that the table has not";
 }
 
 TEST(Config, DefaultsAreThoseOfTheLibrary) {

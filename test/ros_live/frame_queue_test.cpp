@@ -1,6 +1,7 @@
 #include "ros/live/frame_queue.h"
 
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <boost/make_shared.hpp>
@@ -11,6 +12,7 @@ namespace {
 ReceivedFrame frame(std::uint32_t number, Reception reception = Reception::kUsable) {
   ReceivedFrame received;
   received.header.seq = number;
+  received.header.stamp = ros::Time(1000 + number, 0);
   received.reception = reception;
   if (reception == Reception::kUsable) received.cloud = boost::make_shared<const sensor_msgs::PointCloud2>();
   return received;
@@ -45,13 +47,54 @@ TEST(FrameQueue, FramesWithoutACloudTakeNoPlace) {
   EXPECT_EQ(queue.pop(now())->reception, Reception::kUsable);
 }
 
+std::vector<Reception> receptions(FrameQueue& queue) {
+  std::vector<Reception> all;
+  while (const auto received = queue.pop(now())) {
+    EXPECT_EQ(received->cloud != nullptr, received->reception == Reception::kUsable);
+    all.push_back(received->reception);
+  }
+  return all;
+}
+
 TEST(FrameQueue, LatestReplacesWhatWaits) {
-  FrameQueue queue(5, QueuePolicy::kLatest);
+  FrameQueue queue(1, QueuePolicy::kLatest);
+  queue.push(frame(0));
+  EXPECT_EQ(queue.pop(now())->reception, Reception::kUsable);
+  queue.push(frame(1, Reception::kInvalid));
+  for (std::uint32_t n = 2; n < 5; ++n) queue.push(frame(n));
+  EXPECT_EQ(queue.size(), 1u);
+  const std::vector<Reception> wanted = {Reception::kInvalid, Reception::kReplaced, Reception::kReplaced,
+                                         Reception::kUsable};
+  EXPECT_EQ(receptions(queue), wanted);
+  EXPECT_EQ(queue.size(), 0u);
+}
+
+// The mesh belongs to the first frame, which must not be skipped where the next ones arrive before the worker wakes.
+TEST(FrameQueue, LatestKeepsTheFirstFrameOfARun) {
+  FrameQueue queue(1, QueuePolicy::kLatest);
   queue.push(frame(0, Reception::kInvalid));
   for (std::uint32_t n = 1; n < 4; ++n) queue.push(frame(n));
+  EXPECT_EQ(queue.size(), 2u);
+  const std::vector<Reception> wanted = {Reception::kInvalid, Reception::kUsable, Reception::kReplaced,
+                                         Reception::kUsable};
+  EXPECT_EQ(receptions(queue), wanted);
+  EXPECT_EQ(queue.size(), 0u);
+}
+
+TEST(FrameQueue, LatestGoesOnToTheNewestRun) {
+  FrameQueue queue(1, QueuePolicy::kLatest);
+  for (int loop = 0; loop < 3; ++loop) {
+    for (std::uint32_t n = 0; n < 3; ++n) queue.push(frame(n));
+  }
+  ReceivedFrame other = frame(7);
+  other.header.frame_id = "basin";
+  queue.push(other);
+  queue.push(frame(8));
+  // Of all that waits nothing is left but the frame that began the last run, which is also the newest.
   EXPECT_EQ(queue.size(), 1u);
-  const Reception wanted[] = {Reception::kInvalid, Reception::kReplaced, Reception::kReplaced, Reception::kUsable};
-  for (const Reception reception : wanted) EXPECT_EQ(queue.pop(now())->reception, reception);
+  std::vector<Reception> wanted(10, Reception::kReplaced);
+  wanted.push_back(Reception::kUsable);
+  EXPECT_EQ(receptions(queue), wanted);
 }
 
 TEST(FrameQueue, CommandsGoFirst) {

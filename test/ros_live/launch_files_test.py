@@ -89,9 +89,11 @@ class LaunchFiles(unittest.TestCase):
     def test_replay_is_paced_and_waits(self):
         config = load(PROJECT / "launch/replay.launch", "bag:=/data/a.bag", "rviz:=false")
         player = next(node for node in config.nodes if node.name == "player")
-        for word in ("--wait-for-subscribers", "--rate-control-topic /tracker/status", "/data/a.bag"):
+        for word in ("--queue 0", "--wait-for-subscribers", "--rate-control-topic /tracker/status", "/data/a.bag"):
             self.assertIn(word, player.args)
         self.assertNotIn("--loop", player.args)
+        self.assertEqual(parameters(config)["/tracker/queue_size"], 1000000)
+        self.assertEqual(parameters(config)["/tracker/queue_policy"], "all")
         self.assertEqual({node.name for node in config.nodes}, {"tracker_manager", "tracker", "player"})
 
     def test_scenes_with_y_up_are_turned(self):

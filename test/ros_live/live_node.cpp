@@ -10,9 +10,8 @@
 namespace particle_surface_tracker::test {
 
 sensor_msgs::PointCloud2Ptr ball_cloud(int n) {
-  static const ParticleFrame ball =
-      fill_with_particles(Vec3d(-1, -1, -1), Vec3d(1, 1, 1), kBallSpacing, 0.0, 0,
-                          [](const Vec3d& x) { return x.norm() < 0.95; });
+  static const ParticleFrame ball = fill_with_particles(Vec3d(-1, -1, -1), Vec3d(1, 1, 1), kBallSpacing, 0.0, 0,
+                                                        [](const Vec3d& x) { return x.norm() < 0.95; });
   ParticleFrame frame = ball;
   for (Vec3f& position : frame.positions) position.x() += static_cast<float>(n * kBallSpacing / 16);
   frame.stamp_ns = 1000000000000 + n * std::int64_t{10000000};

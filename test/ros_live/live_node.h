@@ -72,8 +72,8 @@ bool Collector<Message>::wait_for_publisher(std::uint32_t count) const {
 /// Particle spacing of the ball [m].
 constexpr double kBallSpacing = 0.2;
 
-/// Frame n of a ball of liquid of radius 1 that moves by r / 16 along x in every frame: stamp 1000 s + n / 100 s, sequence
-/// number n, frame_id "tank".
+/// Frame n of a ball of liquid of radius 1 that moves by r / 16 along x in every frame: stamp 1000 s + n / 100 s,
+/// sequence number n, frame_id "tank".
 sensor_msgs::PointCloud2Ptr ball_cloud(int n);
 
 /// The mesh of frame 0.

@@ -84,8 +84,7 @@ void expect_same_as_offline(const Scene& scene, const std::string& rate) {
   const Meshes wanted = track_offline(scene, folder);
   Collector<TrackedMesh> meshes("/tracker/mesh");
   Collector<TrackerStatus> statuses("/tracker/status");
-  Launch launch({"bag:=" + scene.bag, "mesh:=" + scene.mesh, "spacing:=" + scene.spacing,
-                 "rate:=" + rate});
+  Launch launch({"bag:=" + scene.bag, "mesh:=" + scene.mesh, "spacing:=" + scene.spacing, "rate:=" + rate});
   const auto is_last = [&] {
     const auto answers = statuses.wait_for(0);
     return !answers.empty() && to_nanoseconds(answers.back()->header.stamp) == wanted.rbegin()->first;

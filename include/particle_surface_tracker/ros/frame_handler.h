@@ -69,9 +69,9 @@ class FrameHandler {
   FrameHandlerOptions options_;
   std::optional<Tracker> tracker_;
   std_msgs::Header header_;
-  double seconds_ = 0.0;                 // Between the last frame and the one before; 0 if there is none.
+  double seconds_ = 0.0;                  // Between the last frame and the one before; 0 if there is none.
   std::unique_ptr<VertexPlaces> before_;  // Of the frame before the last.
-  std::vector<Triangle> triangles_;      // Of the last frame, to see when they change.
+  std::vector<Triangle> triangles_;       // Of the last frame, to see when they change.
   std::uint32_t topology_version_ = 0;
 };
 

@@ -11,28 +11,46 @@ FrameQueue::FrameQueue(std::size_t limit, QueuePolicy policy) : limit_(limit), p
 void FrameQueue::push(ReceivedFrame frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    bool begins = false;
     if (frame.reception == Reception::kUsable) {
+      begins = begins_run(frame);
       if (policy_ == QueuePolicy::kLatest) {
-        for (ReceivedFrame& waiting : frames_) {
-          if (waiting.reception != Reception::kUsable) continue;
-          waiting.reception = Reception::kReplaced;
-          waiting.reason = "a newer frame arrived before this one was tracked (queue_policy is latest)";
-          waiting.cloud.reset();
-        }
-        clouds_ = 0;
-      }
-      // What waits comes before what arrives: the first frame is the one that the mesh belongs to.
-      if (clouds_ >= limit_) {
+        replace_waiting(/*with_begin*/ begins);
+        ++clouds_;
+      } else if (clouds_ < limit_) {
+        ++clouds_;
+      } else {
+        // What waits comes before what arrives: the first frame is the one that the mesh belongs to.
         frame.reception = Reception::kDropped;
         frame.reason = fmt::format("the queue is full (queue_size is {})", limit_);
         frame.cloud.reset();
-      } else {
-        ++clouds_;
       }
     }
-    frames_.push_back(std::move(frame));
+    places_.push_back({std::move(frame), begins});
   }
   changed_.notify_one();
+}
+
+bool FrameQueue::begins_run(const ReceivedFrame& frame) {
+  switch (arrivals_.judge(frame.header).verdict) {
+    case InputSequence::Verdict::kFirst:
+    case InputSequence::Verdict::kWentBack:
+    case InputSequence::Verdict::kOtherFrameId:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void FrameQueue::replace_waiting(bool with_begin) {
+  for (Place& place : places_) {
+    ReceivedFrame& waiting = place.frame;
+    if (waiting.reception != Reception::kUsable || (place.begins_run && !with_begin)) continue;
+    waiting.reception = Reception::kReplaced;
+    waiting.reason = "a newer frame arrived before this one was tracked (queue_policy is latest)";
+    waiting.cloud.reset();
+    --clouds_;
+  }
 }
 
 void FrameQueue::push(Command command) {
@@ -52,7 +70,7 @@ void FrameQueue::close() {
 }
 
 bool FrameQueue::wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until) {
-  const auto ready = [this] { return closed_ || !commands_.empty() || !frames_.empty(); };
+  const auto ready = [this] { return closed_ || !commands_.empty() || !places_.empty(); };
   if (until) return changed_.wait_until(lock, *until, ready);
   changed_.wait(lock, ready);
   return true;
@@ -69,8 +87,8 @@ std::optional<ReceivedFrame> FrameQueue::pop(std::optional<Time> until) {
       lock.lock();
       continue;
     }
-    ReceivedFrame frame = std::move(frames_.front());
-    frames_.pop_front();
+    ReceivedFrame frame = std::move(places_.front().frame);
+    places_.pop_front();
     if (frame.reception == Reception::kUsable) --clouds_;
     return frame;
   }

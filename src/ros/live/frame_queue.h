@@ -11,12 +11,14 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
+#include "ros/live/input_sequence.h"
+
 namespace particle_surface_tracker {
 
 /// What happens to frames that arrive faster than they are tracked.
 enum class QueuePolicy {
   kAll,    ///< They wait; where the queue is full, the one that arrives is dropped.
-  kLatest  ///< Only the newest waits.
+  kLatest  ///< Only the newest waits, and the first of a run: to that one the mesh belongs.
 };
 
 /// What came of a message before the tracker has seen it.
@@ -31,8 +33,8 @@ struct ReceivedFrame {
   std::chrono::steady_clock::time_point arrival = std::chrono::steady_clock::now();
 };
 
-/// Hands frames, and commands that go first, from the callbacks to the one thread that tracks. Frames that are not going
-/// to be tracked keep their place in the row, without their data, so that every frame is answered in order.
+/// Hands frames, and commands that go first, from the callbacks to the one thread that tracks. Frames that are not
+/// going to be tracked keep their place in the row, without their data, so that every frame is answered in order.
 class FrameQueue {
  public:
   using Command = std::function<void()>;
@@ -58,13 +60,22 @@ class FrameQueue {
   std::size_t size() const;
 
  private:
+  // A frame whose data waits, or not any more.
+  struct Place {
+    ReceivedFrame frame;
+    bool begins_run = false;
+  };
+
   bool wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until);
+  bool begins_run(const ReceivedFrame& frame);
+  void replace_waiting(bool with_begin);
 
   const std::size_t limit_;
   const QueuePolicy policy_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<ReceivedFrame> frames_;
+  std::deque<Place> places_;
+  InputSequence arrivals_;  // Usable frames, as they arrive.
   std::deque<Command> commands_;
   std::size_t clouds_ = 0;
   bool closed_ = false;

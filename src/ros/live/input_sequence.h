@@ -13,11 +13,11 @@ namespace particle_surface_tracker {
 class InputSequence {
  public:
   enum class Verdict {
-    kFirst,       ///< Nothing came before.
-    kNext,        ///< Continues the run.
-    kRepeated,    ///< Has the stamp of the frame before.
-    kLate,        ///< Is older than the frame before.
-    kWentBack,    ///< The time went back: begins a new run.
+    kFirst,        ///< Nothing came before.
+    kNext,         ///< Continues the run.
+    kRepeated,     ///< Has the stamp of the frame before.
+    kLate,         ///< Is older than the frame before.
+    kWentBack,     ///< The time went back: begins a new run.
     kOtherFrameId  ///< Has another frame_id: begins a new run.
   };
 
@@ -27,8 +27,9 @@ class InputSequence {
     std::uint64_t missing = 0;  ///< Frames that never arrived, between the frame before and this one.
   };
 
-  /// Judges the frame that arrived next. A stamp that is not above that of the frame before belongs to a new run where it
-  /// is below all of the run, or is the third in a row that is late and those three follow each other; else it is late.
+  /// Judges the frame that arrived next. A stamp that is not above that of the frame before belongs to a new run where
+  /// it is below all of the run, or is the third in a row that is late and those three follow each other; else it is
+  /// late.
   ///
   /// Frames are missing where sequence numbers jump; where the source does not count, where the time between two stamps
   /// is more than 1.5 times the median of the last ones.

@@ -26,11 +26,16 @@ std::optional<std::string> PrivateParameters::text(const std::string& name) {
   XmlRpc::XmlRpcValue value;
   if (!handle_.getParam(name, value)) return std::nullopt;
   switch (value.getType()) {
-    case XmlRpc::XmlRpcValue::TypeBoolean: return static_cast<bool>(value) ? "true" : "false";
-    case XmlRpc::XmlRpcValue::TypeInt: return fmt::format("{}", static_cast<int>(value));
-    case XmlRpc::XmlRpcValue::TypeDouble: return fmt::format("{}", static_cast<double>(value));
-    case XmlRpc::XmlRpcValue::TypeString: break;
-    default: throw ParameterError(fmt::format("~{} is a list or a map; it must be a single value", name));
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return fmt::format("{}", static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return fmt::format("{}", static_cast<double>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      break;
+    default:
+      throw ParameterError(fmt::format("~{} is a list or a map; it must be a single value", name));
   }
   const auto string = static_cast<std::string>(value);
   return string.empty() ? std::nullopt : std::make_optional(string);

@@ -6,8 +6,8 @@
 namespace particle_surface_tracker {
 namespace {
 
-// roscpp's own queue drops silently. It is emptied at once, and long enough for that never to happen before the queue of
-// the node is full, which says what it drops.
+// roscpp's own queue drops silently. It is emptied at once, and long enough for that never to happen before the queue
+// of the node is full, which says what it drops.
 constexpr std::size_t kSmallestSubscriberQueue = 100;
 
 }  // namespace
@@ -18,9 +18,8 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, const ros::NodeHandle& private_
 TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, const NodeOptions& options)
     : outputs_(private_handle, options.marker),
       worker_(options, outputs_, private_handle.getNamespace()),
-      parameter_server_(private_handle, options.handler.parameters, [this](const Parameters& parameters) {
-        worker_.set_parameters(parameters, [] {});
-      }) {
+      parameter_server_(private_handle, options.handler.parameters,
+                        [this](const Parameters& parameters) { worker_.set_parameters(parameters, [] {}); }) {
   for (const std::string& warning : options.warnings) ROS_WARN_STREAM(private_handle.getNamespace() << ": " << warning);
   reset_service_ = private_handle.advertiseService("reset", &TrackerNode::reset, this);
   particles_ = handle.subscribe<sensor_msgs::PointCloud2>(

@@ -11,8 +11,8 @@
 
 namespace particle_surface_tracker {
 
-/// The live tracker, whether it is a node or a nodelet: topics, service and parameters around a TrackingWorker. They are
-/// described in docs/node.md.
+/// The live tracker, whether it is a node or a nodelet: topics, service and parameters around a TrackingWorker. They
+/// are described in docs/node.md.
 class TrackerNode {
  public:
   /// \throw ParameterError, InputError, MeshError as read_node_options().

@@ -59,9 +59,10 @@ void TrackingWorker::set_parameters(const Parameters& parameters, std::function<
     try {
       const std::vector<std::string> waiting = handler_.set_parameters(parameters);
       if (!waiting.empty()) {
-        log_.warn(fmt::format("{} cannot change while a mesh is being tracked; the new value waits for the next reset "
-                              "(service ~reset)",
-                              fmt::join(waiting, ", ")));
+        log_.warn(
+            fmt::format("{} cannot change while a mesh is being tracked; the new value waits for the next reset "
+                        "(service ~reset)",
+                        fmt::join(waiting, ", ")));
       }
     } catch (const ParameterError& error) {
       log_.warn(fmt::format("refused: {}", error.what()));
@@ -115,7 +116,8 @@ void TrackingWorker::process_unusable(const ReceivedFrame& frame, TrackerStatus&
     default:
       status.state = TrackerStatus::INVALID;
       ++counts_.frames_invalid;
-      log_.warn_sometimes("invalid", fmt::format("cannot use the frame of {}: {}", stamp_of(frame.header), frame.reason));
+      log_.warn_sometimes("invalid",
+                          fmt::format("cannot use the frame of {}: {}", stamp_of(frame.header), frame.reason));
   }
 }
 
@@ -131,7 +133,8 @@ void TrackingWorker::process_usable(const ReceivedFrame& frame, TrackerStatus& s
     status.state = TrackerStatus::FAILED;
     status.reason = error.what();
     ++counts_.frames_failed;
-    log_.error_sometimes("failed", fmt::format("cannot track the frame of {}: {}", stamp_of(frame.header), error.what()));
+    log_.error_sometimes("failed",
+                         fmt::format("cannot track the frame of {}: {}", stamp_of(frame.header), error.what()));
     return;
   }
   if (status.reason.empty()) return;
@@ -161,7 +164,8 @@ bool TrackingWorker::admit(const ReceivedFrame& frame, TrackerStatus& status) {
       log_.warn(fmt::format("frame_id changed, to '{}': the tracker starts again", frame.header.frame_id));
       break;
     case Verdict::kFirst:
-    case Verdict::kNext: break;
+    case Verdict::kNext:
+      break;
   }
   if (judgement.verdict != Verdict::kNext) {
     ++counts_.run;
@@ -171,10 +175,10 @@ bool TrackingWorker::admit(const ReceivedFrame& frame, TrackerStatus& status) {
   if (judgement.missing > 0) {
     counts_.frames_missing += judgement.missing;
     status.warnings.push_back(count_missing(judgement.missing) + " before this one");
-    log_.warn_sometimes("missing",
-                        fmt::format("{} before {}; {} so far. What is lost on the way: raise ~queue_size, and the queue "
-                                    "of the publisher",
-                                    count_missing(judgement.missing), stamp_of(frame.header), counts_.frames_missing));
+    log_.warn_sometimes(
+        "missing", fmt::format("{} before {}; {} so far. What is lost on the way: raise ~queue_size, and the queue "
+                               "of the publisher",
+                               count_missing(judgement.missing), stamp_of(frame.header), counts_.frames_missing));
   }
   return true;
 }

@@ -36,7 +36,8 @@ float rounded_up(double value) {
 
 BirthRecords::BirthRecords(TriangleMesh& mesh) : mesh_(mesh), attribute_(mesh.attributes().find(kAttributeName)) {
   if (attribute_ == VertexAttributes::none) {
-    attribute_ = mesh.attributes().add(kAttributeName, kComponents, std::vector<float>(kComponents, 0.0F), AttributeUse::kInternal);
+    attribute_ = mesh.attributes().add(kAttributeName, kComponents, std::vector<float>(kComponents, 0.0F),
+                                       AttributeUse::kInternal);
   }
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
 
 namespace particle_surface_tracker {
 
@@ -51,7 +51,8 @@ void thin_stretched_detail(TriangleMesh& mesh, const std::vector<Vec3f>& before)
   std::vector<float>& delta = mesh.delta();
   for (std::size_t v = 0; v < delta.size(); ++v) {
     if (!(around_before[v] > 0.0F) || !(around[v] > 0.0F)) continue;
-    const double growth = std::clamp(static_cast<double>(around[v]) / around_before[v], 1.0 / kLargestGrowth, kLargestGrowth);
+    const double growth =
+        std::clamp(static_cast<double>(around[v]) / around_before[v], 1.0 / kLargestGrowth, kLargestGrowth);
     const double kept_before = kept_part(stretch[v]);
     stretch[v] = static_cast<float>(growth * stretch[v]);
     const double kept = kept_part(stretch[v]);
