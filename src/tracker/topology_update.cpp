@@ -122,7 +122,12 @@ double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const
   for (const std::uint32_t v : relaxed.moved) relaxed_ids.push_back(mesh.ids()[v]);
   timer.begin("upkeep");
   const UpkeepReport kept = keep_up(mesh, parameters, memory);
-  report.upkeep = {kept.splits, kept.collapses + kept.fold_collapses + kept.sliver_collapses, kept.flips, kept.refused};
+  report.upkeep.splits = kept.splits;
+  report.upkeep.collapses = kept.collapses + kept.fold_collapses + kept.sliver_collapses;
+  report.upkeep.flips = kept.flips;
+  report.upkeep.tangles = relaxed.tangles;
+  report.upkeep.untangled = relaxed.untangled;
+  report.upkeep.refused = kept.refused;
 
   return measure_fresh_delta(mesh, fresh_vertices(mesh, first_new_id, relaxed_ids, kept.fresh), first_new_id,
                              first_upkeep_id, surface, parameters, report, timer);

@@ -77,11 +77,20 @@ void describe(FrameReport& report, const Tracked& tracked, const ParticleFrame& 
   for (const float delta : tracked.mesh.delta()) {
     report.max_abs_delta = std::max(report.max_abs_delta, std::abs(static_cast<double>(delta)));
   }
-  report.flagged_vertices = tracked.detection.flagged_vertices.size();
-  report.unreached_vertices = tracked.detection.unreached_vertices;
   const auto& ids = tracked.mesh.ids();
   report.original_vertices_alive = static_cast<std::size_t>(
       std::count_if(ids.begin(), ids.end(), [&](std::uint32_t id) { return id < tracked.original_vertices; }));
+}
+
+/// The vertices with some ids, as far as they are alive. Ids increase with the vertex.
+std::vector<std::uint32_t> vertices_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids) {
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t id : ids) {
+    const auto found = std::lower_bound(mesh.ids().begin(), mesh.ids().end(), id);
+    if (found == mesh.ids().end() || *found != id) continue;
+    vertices.push_back(static_cast<std::uint32_t>(found - mesh.ids().begin()));
+  }
+  return vertices;
 }
 
 void require_particles(const ParticleFrame& frame) {
@@ -122,6 +131,7 @@ struct Tracker::State {
                       "taken as 0",
                       lost));
     }
+    note_birth(next->mesh);
     next->band = largest_distance(next->mesh, measured, next->detection);
     describe(report, *next, frame, timer);
     timer.finish();
@@ -145,13 +155,27 @@ struct Tracker::State {
   }
 
   /// Projects the advected vertices and flags those that jump.
-  void project_vertices(Tracked& next, StageTimer& timer) const {
+  void project_vertices(Tracked& next, FrameReport& report, StageTimer& timer) const {
     const double reach = std::max(parameters.band_factor * next.band, smallest_reach());
     const double max_reach = std::max(parameters.max_reach * r(), reach);
     const Projection projection = project_within_band(next.mesh.positions(), next.mesh.delta(), *next.surface, reach,
                                                       max_reach, parameters, timer);
     next.detection = apply_projection(next.mesh, projection, parameters);
+    report.flagged_vertices = next.detection.flagged_vertices.size();
+    report.unreached_vertices = next.detection.unreached_vertices;
+    report.flagged_cells = next.detection.flagged_cells.size();
     next.band = largest_distance(next.mesh, projection, next.detection);
+  }
+
+  /// Splits and merges the mesh, and keeps its triangles in shape. What was flagged and is still there stays flagged.
+  void match_topology(Tracked& next, FrameReport& report, StageTimer& timer) {
+    std::vector<std::uint32_t> flagged_ids;
+    flagged_ids.reserve(next.detection.flagged_vertices.size());
+    for (const std::uint32_t v : next.detection.flagged_vertices) flagged_ids.push_back(next.mesh.ids()[v]);
+    const double new_delta =
+        update_topology(next.mesh, *next.surface, next.detection, parameters, upkeep_memory, report, timer);
+    next.band = std::max(next.band, new_delta);
+    next.detection.flagged_vertices = vertices_of(next.mesh, flagged_ids);
   }
 };
 
@@ -209,15 +233,12 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
   } else {
     state_->advect_vertices(*next, frame, report, timer);
     next->surface = make_implicit_surface(frame, state_->parameters, timer);
-    state_->project_vertices(*next, timer);
+    state_->project_vertices(*next, report, timer);
     if (state_->parameters.stretched_detail == StretchedDetail::kThin) {
       thin_stretched_detail(next->mesh, state_->tracked->mesh.positions());
     }
-    report.flagged_cells = next->detection.flagged_cells.size();
     if (state_->parameters.topology == TopologyMode::kMatch) {
-      const double new_delta = update_topology(next->mesh, *next->surface, next->detection, state_->parameters,
-                                               state_->upkeep_memory, report, timer);
-      next->band = std::max(next->band, new_delta);
+      state_->match_topology(*next, report, timer);
     }
     decay_delta(next->mesh, 1e-9 * static_cast<double>(frame.stamp_ns - next->particles.stamp_ns), state_->parameters);
     next->particles = frame;

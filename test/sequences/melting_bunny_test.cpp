@@ -28,7 +28,8 @@ constexpr std::size_t kIntersectionStride = 10;
 struct TrackedRun {
   Sequence sequence;
   std::vector<FrameJudgement> judgements;
-  std::vector<std::vector<Vec3f>> positions;  ///< Of the mesh, frame by frame [m].
+  std::vector<std::vector<Vec3f>> positions;    ///< Of the mesh, frame by frame [m].
+  std::vector<std::vector<std::uint32_t>> ids;  ///< Of its vertices.
 };
 
 TrackedRun track_and_judge() {
@@ -43,6 +44,7 @@ TrackedRun track_and_judge() {
     const FrameReport report = n == 0 ? tracker.start(run.sequence.mesh, frame) : tracker.advance(frame, n);
     run.judgements.push_back(judge_frame(tracker, frame, report, n % kIntersectionStride == 0));
     run.positions.push_back(tracker.mesh().positions());
+    run.ids.push_back(tracker.mesh().ids());
     fmt::print("{}\n", judgement_row(run.judgements.back(), run.judgements.front()));
   }
   return run;
@@ -106,8 +108,8 @@ TEST(MeltingBunny, KeepsShapesWhereItMovesRigidly) {
   const double r = run.sequence.spacing;
   for (const std::size_t n : {5u, 9u, 12u, 16u, 19u, 22u, 25u}) {
     const std::vector<double> changes =
-        ring_shape_changes(run.sequence.mesh.triangles(), run.positions[0], run.positions[n], run.sequence.frames[0],
-                           run.sequence.frames[n], r);
+        ring_shape_changes(run.sequence.mesh.triangles(), run.positions[0], run.positions[n], run.ids[n],
+                           run.sequence.frames[0], run.sequence.frames[n], r);
     const RingShapeSummary summary = summarize(changes);
     fmt::print(
         "frame {:3}: {:6} vertices among rigidly moving particles; one-rings change by {:.4f} r (median), {:.4f} r "

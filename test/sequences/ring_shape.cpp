@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -63,11 +64,24 @@ void add_within(const ParticleGrid& grid, const std::vector<Vec3f>& positions, c
   grid.for_each_range(grid.cell_of(center.array() - radius), grid.cell_of(center.array() + radius), visit);
 }
 
+constexpr auto kGone = std::numeric_limits<std::uint32_t>::max();
+
+/// Where the vertices of the first frame stand in the later one.
+std::vector<std::uint32_t> places_of_first(std::size_t count, const std::vector<std::uint32_t>& later_ids) {
+  std::vector<std::uint32_t> place(count, kGone);
+  for (std::uint32_t n = 0; n < later_ids.size(); ++n) {
+    if (later_ids[n] < count) place[later_ids[n]] = n;
+  }
+  return place;
+}
+
 }  // namespace
 
 std::vector<double> ring_shape_changes(const std::vector<Triangle>& triangles, const std::vector<Vec3f>& first,
-                                       const std::vector<Vec3f>& later, const ParticleFrame& first_particles,
-                                       const ParticleFrame& later_particles, double r) {
+                                       const std::vector<Vec3f>& later, const std::vector<std::uint32_t>& later_ids,
+                                       const ParticleFrame& first_particles, const ParticleFrame& later_particles,
+                                       double r) {
+  const std::vector<std::uint32_t> place = places_of_first(first.size(), later_ids);
   const CommonParticles particles = match(first_particles, later_particles);
   const ParticleGrid first_grid(particles.first, r);
   const ParticleGrid later_grid(particles.later, r);
@@ -77,14 +91,17 @@ std::vector<double> ring_shape_changes(const std::vector<Triangle>& triangles, c
   }
   std::vector<double> changes;
   for (std::size_t v = 0; v < first.size(); ++v) {
+    const std::vector<std::uint32_t> ring(rings[v].begin(), rings[v].end());
+    std::vector<std::uint32_t> later_ring;
+    for (const std::uint32_t w : ring) later_ring.push_back(place[w]);
+    if (std::count(later_ring.begin(), later_ring.end(), kGone) > 0) continue;
     std::set<std::uint32_t> around;
     add_within(first_grid, particles.first, first[v].cast<double>(), kParticleRadius * r, around);
-    add_within(later_grid, particles.later, later[v].cast<double>(), kInfluenceRadius * r, around);
+    add_within(later_grid, particles.later, later[place[v]].cast<double>(), kInfluenceRadius * r, around);
     const std::vector<std::uint32_t> near(around.begin(), around.end());
     if (near.size() < kFewestPoints) continue;
     if (rigid_residual(gather(particles.first, near), gather(particles.later, near)) > kRigidRms * r) continue;
-    const std::vector<std::uint32_t> ring(rings[v].begin(), rings[v].end());
-    changes.push_back(rigid_residual(gather(first, ring), gather(later, ring)) / r);
+    changes.push_back(rigid_residual(gather(first, ring), gather(later, later_ring)) / r);
   }
   return changes;
 }

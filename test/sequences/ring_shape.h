@@ -14,12 +14,15 @@ namespace particle_surface_tracker::test {
 /// at least.
 ///
 /// \param first positions of the vertices in the first frame [m].
-/// \param later positions of the vertices in the later frame [m].
+/// \param later positions of the later frame's vertices [m].
+/// \param later_ids their ids, increasing: index of the vertex in the first frame. Rings that have lost a vertex are left
+/// out.
 /// \param r particle spacing [m].
 /// \return one number per such vertex.
 std::vector<double> ring_shape_changes(const std::vector<Triangle>& triangles, const std::vector<Vec3f>& first,
-                                       const std::vector<Vec3f>& later, const ParticleFrame& first_particles,
-                                       const ParticleFrame& later_particles, double r);
+                                       const std::vector<Vec3f>& later, const std::vector<std::uint32_t>& later_ids,
+                                       const ParticleFrame& first_particles, const ParticleFrame& later_particles,
+                                       double r);
 
 /// Of a set of numbers; all 0 if it is empty.
 struct RingShapeSummary {

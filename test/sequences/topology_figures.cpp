@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "particle_surface_tracker/core/mesh_check.h"
 #include "particle_surface_tracker/io/report_writer.h"
@@ -25,12 +24,16 @@ const std::vector<std::string>& mark_names() {
 }
 
 std::map<std::string, std::size_t> marks_in(const FrameReport& report) {
-  const nlohmann::json line = nlohmann::json::parse(report_line(report));
-  std::map<std::string, std::size_t> marks;
-  for (const std::string& name : mark_names()) {
-    if (line.contains(name)) marks[name] = line[name].get<std::size_t>();
-  }
-  return marks;
+  const FrameReport::Topology& topology = report.topology;
+  return {{"flagged_cells", report.flagged_cells},
+          {"complex_cells", topology.complex_cells},
+          {"deep_cells", topology.deep_cells},
+          {"marked_by_growth", topology.marked_by_growth},
+          {"remeshed_cells", topology.remeshed_cells},
+          {"changed_nodes", topology.changed_nodes},
+          {"retries", topology.retries},
+          {"fallbacks", topology.fallbacks},
+          {"removed_components", topology.removed_components}};
 }
 
 bool is_manifold(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {

@@ -80,7 +80,7 @@ struct Parameters {
   double tau = 0.5;                     // τ: a projection that moves a vertex farther is a topological change [r].
 
   // Voxelisation Γ of the mesh and topology matching (Secs. 5.3, 6).
-  TopologyMode topology = TopologyMode::kKeep;
+  TopologyMode topology = TopologyMode::kMatch;
   double dx_gamma = 0.5;  // Δx_Γ: cell size of Γ [r].
   DetectionMethod detection = DetectionMethod::kTauAndSigns;
   double matching_reach = 2.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
