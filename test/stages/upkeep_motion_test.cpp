@@ -190,7 +190,8 @@ TEST(UpkeepMotion, ANotchedSphereTurnsOnceAndNothingIsTouched) {
   const TriangleMesh before = mesh;
   const double volume = test::volume_of(mesh);
   const Eigen::AngleAxisd turn(2.0 * kPi / steps, Vec3d::UnitZ());
-  const Passage passage = carry(mesh, h, steps, [&](int, const Vec3d& x) { return Vec3d(axis_at + turn * (x - axis_at)); });
+  const Passage passage =
+      carry(mesh, h, steps, [&](int, const Vec3d& x) { return Vec3d(axis_at + turn * (x - axis_at)); });
   EXPECT_EQ(passage.splits + passage.collapses + passage.folds + passage.slivers + passage.flips, 0U);
   EXPECT_EQ(passage.refused, 0U);
   EXPECT_EQ(mesh.triangles(), before.triangles());

@@ -10,8 +10,8 @@ namespace particle_surface_tracker {
 
 namespace {
 
-/// A collapse may leave a sliver behind whose angle is this part of the worst one before: two triangles go, and the next
-/// collapse may take it away. Held to 1, half of all short edges stay, and their neighbours with them.
+/// A collapse may leave a sliver behind whose angle is this part of the worst one before: two triangles go, and the
+/// next collapse may take it away. Held to 1, half of all short edges stay, and their neighbours with them.
 constexpr double kAngleLoss = 0.5;
 
 double six_volumes(const Corners& corners, const Vec3d& origin) {
@@ -39,7 +39,8 @@ double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch&
 }
 
 /// The normal beyond edge k of a triangle of the patch: of another triangle of the patch, or of one around it.
-Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle, std::size_t k) {
+Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle,
+                    std::size_t k) {
   const std::uint32_t from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3];
   for (const PatchTriangle& other : patch.triangles) {
     for (std::size_t m = 0; m < 3; ++m) {
@@ -200,7 +201,8 @@ bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, cons
   find_others(surface, patch, surroundings, others);
   if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, others)) return true;
   std::vector<PatchTriangle> before;
-  for (const std::uint32_t t : patch.replaced) before.push_back({surface.triangle(t), surface.corners(t), Vec3d::Zero(), {}});
+  for (const std::uint32_t t : patch.replaced)
+    before.push_back({surface.triangle(t), surface.corners(t), Vec3d::Zero(), {}});
   return crosses_itself(before) || crosses_others(surface, before, others);
 }
 
