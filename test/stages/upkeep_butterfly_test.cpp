@@ -161,7 +161,9 @@ TEST(Butterfly, ReproducesCubicPolynomialsOnARegularGrid) {
   TriangleMesh mesh = make_regular_torus();
   // Vertex (i, j) of the torus at (i, j) of an oblique grid: away from where the torus closes that is a plane, and
   // small integers are exact.
-  const auto height = [](double u, double v) { return u * u * u - 2.0 * u * u * v + 3.0 * u * v * v - v * v * v + u * v; };
+  const auto height = [](double u, double v) {
+    return u * u * u - 2.0 * u * u * v + 3.0 * u * v * v - v * v * v + u * v;
+  };
   for (int i = 0; i < kRings; ++i) {
     for (int j = 0; j < kSides; ++j) {
       const double u = i - 6, v = j - 6;

@@ -234,9 +234,8 @@ TEST(Upkeep, PutsNewVerticesOnTheSmoothSurfaceOfARegularMesh) {
   scale(mesh, Vec3d::Constant(2.0625));
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.05));
   EXPECT_EQ(report.splits, 4000U) << "the longest edge of every vertex: the diagonals, each once";
-  const Offsets offsets(mesh, report, [](const Vec3d& x) {
-    return std::hypot(std::hypot(x.x(), x.y()) - 2.0625, x.z()) - 0.4 * 2.0625;
-  });
+  const Offsets offsets(
+      mesh, report, [](const Vec3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 2.0625, x.z()) - 0.4 * 2.0625; });
   // The middles of the diagonals lie up to 3.0e-3 below the surface.
   EXPECT_LT(offsets.largest, 3e-5);
 }

@@ -24,7 +24,8 @@ void Surroundings::enter(std::uint32_t triangle) {
   std::size_t level = 0;
   while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
   level_in_use_[level] = true;
-  const std::size_t slot = slot_of(cell_of(box.min(), level), level);
+  const Cell cell = cell_of(box.min(), level);
+  const std::size_t slot = slot_of(row_of(cell[1], cell[2], level), cell[0]);
   entries_.push_back({box, triangle, heads_[slot]});
   heads_[slot] = static_cast<std::uint32_t>(entries_.size() - 1);
 }
@@ -41,13 +42,13 @@ Surroundings::Cell Surroundings::cell_of(const Vec3f& position, std::size_t leve
           static_cast<std::int64_t>(std::floor(scaled.z()))};
 }
 
-std::size_t Surroundings::slot_of(const Cell& cell, std::size_t level) const {
+std::uint64_t Surroundings::row_of(std::int64_t y, std::int64_t z, std::size_t level) {
   auto hash = static_cast<std::uint64_t>(level);
-  for (const std::int64_t coordinate : cell) {
+  for (const std::int64_t coordinate : {y, z}) {
     hash = (hash ^ static_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15ULL;
     hash ^= hash >> 32;
   }
-  return hash & (heads_.size() - 1);
+  return hash;
 }
 
 }  // namespace particle_surface_tracker

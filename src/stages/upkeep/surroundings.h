@@ -33,10 +33,11 @@ class Surroundings {
         for (const Entry& entry : entries_) visit_entry(entry, box, visit);
         return;
       }
-      for (std::int64_t x = first[0] - 1; x <= last[0]; ++x) {
-        for (std::int64_t y = first[1] - 1; y <= last[1]; ++y) {
-          for (std::int64_t z = first[2] - 1; z <= last[2]; ++z) {
-            for (std::uint32_t e = heads_[slot_of({x, y, z}, level)]; e != kEnd; e = entries_[e].next) {
+      for (std::int64_t y = first[1] - 1; y <= last[1]; ++y) {
+        for (std::int64_t z = first[2] - 1; z <= last[2]; ++z) {
+          const std::uint64_t row = row_of(y, z, level);
+          for (std::int64_t x = first[0] - 1; x <= last[0]; ++x) {
+            for (std::uint32_t e = heads_[slot_of(row, x)]; e != kEnd; e = entries_[e].next) {
               visit_entry(entries_[e], box, visit);
             }
           }
@@ -63,7 +64,11 @@ class Surroundings {
 
   bool has_more_cells_than_entries(const Cell& first, const Cell& last) const;
   Cell cell_of(const Vec3f& position, std::size_t level) const;
-  std::size_t slot_of(const Cell& cell, std::size_t level) const;
+  /// Cells that follow each other along x have slots that follow each other: a search reads a row of them at once.
+  std::size_t slot_of(std::uint64_t row, std::int64_t x) const {
+    return (row + static_cast<std::uint64_t>(x)) & (heads_.size() - 1);
+  }
+  static std::uint64_t row_of(std::int64_t y, std::int64_t z, std::size_t level);
 
   const EditableSurface& surface_;
   std::array<double, kLevels> inverse_cell_size_{};
