@@ -15,9 +15,9 @@ namespace particle_surface_tracker {
 
 namespace {
 
-using Field = std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*,
-                           ProjectionMethod Parameters::*, MatchingSolver Parameters::*, DetectionMethod Parameters::*,
-                           MatchingFrames Parameters::*, TopologyMode Parameters::*>;
+using Field =
+    std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*, ProjectionMethod Parameters::*,
+                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*, TopologyMode Parameters::*>;
 
 struct Entry {
   ParameterInfo info;

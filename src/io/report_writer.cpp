@@ -56,8 +56,10 @@ Json topology_of(const FrameReport::Topology& topology) {
 }
 
 Json upkeep_of(const FrameReport::Upkeep& upkeep) {
-  return {
-      {"splits", upkeep.splits}, {"collapses", upkeep.collapses}, {"flips", upkeep.flips}, {"refused", upkeep.refused}};
+  return {{"splits", upkeep.splits},
+          {"collapses", upkeep.collapses},
+          {"flips", upkeep.flips},
+          {"refused", upkeep.refused}};
 }
 
 Json body_of(const FrameReport& report) {

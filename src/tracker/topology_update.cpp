@@ -69,7 +69,7 @@ void describe(const RemeshingReport& remeshed, FrameReport& report) {
 /// Measures δ of some vertices where they are (Sec. 5.2), by the search that projects.
 /// \return the largest |δ| of them [m].
 double measure_delta_of(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, const ImplicitSurface& surface,
-                        const Parameters& parameters, FrameReport& report, StageTimer& timer) {
+                      const Parameters& parameters, FrameReport& report, StageTimer& timer) {
   if (vertices.empty()) return 0.0;
   std::vector<Vec3f> positions;
   positions.reserve(vertices.size());
@@ -86,8 +86,9 @@ double measure_delta_of(TriangleMesh& mesh, const std::vector<std::uint32_t>& ve
     lost += found ? 0 : 1;
   }
   if (lost > 0) {
-    report.warnings.push_back(fmt::format(
-        "{} of {} new vertices have no implicit surface near them; their δ is taken as 0", lost, vertices.size()));
+    report.warnings.push_back(
+        fmt::format("{} of {} new vertices have no implicit surface near them; their δ is taken as 0", lost,
+                    vertices.size()));
   }
   return largest;
 }
@@ -95,7 +96,7 @@ double measure_delta_of(TriangleMesh& mesh, const std::vector<std::uint32_t>& ve
 }  // namespace
 
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                       const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
+                     const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
   const double h = parameters.dx_gamma * parameters.particle_spacing;
   const std::uint32_t first_new_id = mesh.next_id();
   {

@@ -55,7 +55,7 @@ struct FrameReport {
     std::size_t splits = 0;
     std::size_t collapses = 0;  ///< Of short and of folded edges, and of slivers.
     std::size_t flips = 0;
-    std::size_t refused = 0;  ///< Beyond a limit, but nothing could be done without harm.
+    std::size_t refused = 0;    ///< Beyond a limit, but nothing could be done without harm.
   };
   Upkeep upkeep;
   /// Share of the triangles that intersect others, in [0, 1]; none where the mesh was not checked.
