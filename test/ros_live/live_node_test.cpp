@@ -65,7 +65,7 @@ class LiveNodeTest : public testing::Test {
 };
 
 PointCloud2Ptr changed(int n, const std::function<void(PointCloud2&)>& change) {
-  const auto cloud = ball_cloud(n);
+  PointCloud2Ptr cloud = ball_cloud(n);
   change(*cloud);
   return cloud;
 }
@@ -597,5 +597,7 @@ int main(int argc, char** argv) {
   spinner.start();
   nodelet::Loader manager(/*provide_ros_api*/ false);
   particle_surface_tracker::test::the_manager = &manager;
-  return RUN_ALL_TESTS();
+  const int result = RUN_ALL_TESTS();
+  particle_surface_tracker::test::the_manager = nullptr;
+  return result;
 }
