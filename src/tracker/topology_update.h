@@ -17,6 +17,6 @@ namespace particle_surface_tracker {
 /// \param report receives the counts, and a warning where something could not be done.
 /// \return the largest |δ| of those vertices [m].
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                     const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer);
+                       const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer);
 
 }  // namespace particle_surface_tracker

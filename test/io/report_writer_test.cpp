@@ -77,7 +77,9 @@ TEST(ReportWriter, LineHoldsEverythingInOrder) {
                                              "particles_gone",
                                              "flagged_cells",
                                              "unreached_vertices",
-                                             "topology", "upkeep", "warnings"}));
+                                             "topology",
+                                             "upkeep",
+                                             "warnings"}));
   EXPECT_EQ(json["frame"], 12);
   EXPECT_EQ(json["particles"], 1000);
   EXPECT_EQ(json["vertices"], 500);

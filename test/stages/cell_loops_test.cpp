@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "stages/triangulation/loop_filling.h"
 #include "particle_surface_tracker/core/types.h"
+#include "stages/triangulation/loop_filling.h"
 
 namespace particle_surface_tracker {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
-#include "stages/nodes/leaf_index.h"
 #include "lattice_mesh.h"
+#include "stages/nodes/leaf_index.h"
 
 namespace particle_surface_tracker {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "stages/nodes/node_masks.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 

@@ -7,8 +7,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "stages/distance_field/band_distances.h"
 #include "lattice_weights.h"
+#include "stages/distance_field/band_distances.h"
 
 namespace particle_surface_tracker {
 
@@ -77,7 +77,8 @@ std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& no
           const std::size_t place = 64 * x + bit;
           double distance = reach;
           if (near_leaf[n] != LeafIndex::none) {
-            const float known = std::max(squared[near_leaf[n]]->getValue(static_cast<openvdb::Index>(place)), kSmallestSquared);
+            const float known =
+                std::max(squared[near_leaf[n]]->getValue(static_cast<openvdb::Index>(place)), kSmallestSquared);
             distance = std::min(reach, std::sqrt(static_cast<double>(known)) * surface_.dx);
           }
           const bool is_inside = (signs.inside[x] >> bit & 1) != 0;

@@ -5,10 +5,10 @@
 
 #include <openvdb/Types.h>
 
-#include "stages/nodes/node_masks.h"
-#include "stages/distance_field/surface_cells.h"
 #include "line_signs.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
+#include "stages/distance_field/surface_cells.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 

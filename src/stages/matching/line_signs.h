@@ -6,10 +6,10 @@
 
 #include <openvdb/Types.h>
 
-#include "stages/nodes/leaf_index.h"
-#include "stages/nodes/leaf_masks.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "stages/nodes/leaf_index.h"
+#include "stages/nodes/leaf_masks.h"
 
 namespace particle_surface_tracker {
 

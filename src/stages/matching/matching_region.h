@@ -4,8 +4,8 @@
 
 #include <openvdb/Types.h>
 
-#include "stages/nodes/node_masks.h"
 #include "line_signs.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 

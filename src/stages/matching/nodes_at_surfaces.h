@@ -1,8 +1,8 @@
 #pragma once
 
-#include "stages/nodes/node_masks.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 

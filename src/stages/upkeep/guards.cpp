@@ -39,7 +39,8 @@ double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch&
 }
 
 /// The normal beyond edge k of a triangle of the patch: of another triangle of the patch, or of one around it.
-Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle, std::size_t k) {
+Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle,
+                    std::size_t k) {
   const std::uint32_t from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3];
   for (const PatchTriangle& other : patch.triangles) {
     for (std::size_t m = 0; m < 3; ++m) {

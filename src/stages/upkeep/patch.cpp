@@ -42,7 +42,8 @@ void append_halves(const EditableSurface& surface, std::uint32_t half_edge, cons
 
 }  // namespace
 
-void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position, PlannedPatch& patch) {
+void plan_collapse(const EditableSurface& surface, std::uint32_t half_edge, const Vec3f& position,
+                   PlannedPatch& patch) {
   const std::uint32_t twin = surface.twin(half_edge);
   const std::uint32_t kept = surface.end(half_edge);
   patch.triangles.clear();

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <boost/multiprecision/gmp.hpp>
 
 namespace particle_surface_tracker {

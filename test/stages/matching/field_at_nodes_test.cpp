@@ -8,8 +8,8 @@
 #include <openvdb/math/Proximity.h>
 #include <tbb/global_control.h>
 
-#include "stages/matching/nodes_at_surfaces.h"
 #include "matching_cases.h"
+#include "stages/matching/nodes_at_surfaces.h"
 
 namespace particle_surface_tracker::test::matching {
 namespace {

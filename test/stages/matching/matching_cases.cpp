@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/detection/triangle_cells.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
+#include "stages/detection/triangle_cells.h"
 #include "support/sampled_field.h"
 
 namespace particle_surface_tracker::test::matching {
