@@ -140,7 +140,7 @@ TEST_F(TrackBag, ChecksEveryFrameIfAsked) {
   // A second ball crosses the first.
   write_ply(folder_ / "ball.ply",
             joined({make_sphere(Vec3d::Zero(), 1.0, 3), make_sphere(Vec3d(0.05, 0.02, 0.01), 0.95, 3)}));
-  const Outcome outcome = run_standard("--check --report @/report.jsonl");
+  const Outcome outcome = run_standard("--check --set topology=keep --report @/report.jsonl");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("checking"), std::string::npos) << outcome.out;
   ASSERT_EQ(report().size(), 3u);

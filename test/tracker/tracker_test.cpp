@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -202,7 +203,7 @@ TEST(Tracker, FollowsASingleParticle) {
 }
 
 TEST(Tracker, FlagsVerticesWhoseLiquidHasGone) {
-  // A second drop vanishes: its mesh is left behind, flagged, and does not jump over to the first.
+  // A second drop vanishes.
   const ParticleFrame both =
       test::fill_with_particles(Vec3d(-0.6, -0.6, -0.6), Vec3d(2.6, 0.6, 0.6), r, 0.1, 4,
                                 [](const Vec3d& x) { return std::min(x.norm(), (x - Vec3d(2, 0, 0)).norm()) < 0.5; });
@@ -212,7 +213,10 @@ TEST(Tracker, FlagsVerticesWhoseLiquidHasGone) {
     one.positions.push_back(both.positions[i]);
     one.ids.push_back(both.ids[i]);
   }
-  Tracker tracker(parameters());
+  // Where topology is kept, its mesh is left behind, flagged, and does not jump over to the first.
+  Parameters keep = parameters();
+  keep.topology = TopologyMode::kKeep;
+  Tracker tracker(keep);
   tracker.start_from_particles(both);
   const std::vector<Vec3f> before = tracker.mesh().positions();
   const FrameReport report = tracker.advance(one, 1);
@@ -222,6 +226,15 @@ TEST(Tracker, FlagsVerticesWhoseLiquidHasGone) {
   EXPECT_EQ(report.unreached_vertices, left_behind);
   EXPECT_GT(report.flagged_cells, 0u);
   EXPECT_EQ(tracker.mesh().positions(), before);
+
+  // Else it goes with its liquid, and the first drop keeps every bit.
+  Tracker matching(parameters());
+  matching.start_from_particles(both);
+  matching.advance(one, 1);
+  std::vector<Vec3f> first_drop;
+  std::copy_if(before.begin(), before.end(), std::back_inserter(first_drop),
+               [](const Vec3f& p) { return p.x() < 1.0f; });
+  EXPECT_EQ(matching.mesh().positions(), first_drop);
 }
 
 TEST(Tracker, SameBytesWithOneAndTwoThreads) {
