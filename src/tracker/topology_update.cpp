@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fresh_delta.h"
+#include "particle_surface_tracker/stages/component_disagreement.h"
 #include "particle_surface_tracker/stages/disagreement.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 #include "particle_surface_tracker/stages/remeshing.h"
@@ -18,6 +19,9 @@ namespace particle_surface_tracker {
 namespace {
 
 using Cells = std::vector<openvdb::Coord>;
+
+/// How often a frame's mesh is matched and re-meshed: again only where that has left scraps.
+constexpr int kMostPasses = 2;
 
 Cells united(const Cells& a, const Cells& b) {
   Cells all;
@@ -42,23 +46,23 @@ class LiquidAtNodes {
 };
 
 void describe(const MatchedVoxelization& matched, FrameReport::Topology& topology) {
-  topology.unknowns = matched.statistics.unknowns;
-  topology.iterations = static_cast<std::size_t>(matched.statistics.iterations);
-  topology.enlargements = static_cast<std::size_t>(matched.statistics.enlargements);
-  topology.changed_nodes = matched.changed.size();
+  topology.unknowns += matched.statistics.unknowns;
+  topology.iterations += static_cast<std::size_t>(matched.statistics.iterations);
+  topology.enlargements += static_cast<std::size_t>(matched.statistics.enlargements);
+  topology.changed_nodes += matched.changed.size();
 }
 
 void describe(const RemeshingReport& remeshed, FrameReport& report) {
   FrameReport::Topology& topology = report.topology;
-  topology.complex_cells = remeshed.complex_cells;
-  topology.tangled_cells = remeshed.tangled_cells;
-  topology.deep_cells = remeshed.deep_cells;
-  topology.marked_by_growth = remeshed.marked_by_growth;
-  topology.remeshed_cells = remeshed.remeshed_cells;
-  topology.removed_components = remeshed.removed_components;
-  topology.new_vertices = remeshed.new_vertices;
-  topology.retries = remeshed.retries;
-  topology.fallbacks = remeshed.fallbacks;
+  topology.complex_cells += remeshed.complex_cells;
+  topology.tangled_cells += remeshed.tangled_cells;
+  topology.deep_cells += remeshed.deep_cells;
+  topology.marked_by_growth += remeshed.marked_by_growth;
+  topology.remeshed_cells += remeshed.remeshed_cells;
+  topology.removed_components += remeshed.removed_components;
+  topology.new_vertices += remeshed.new_vertices;
+  topology.retries += remeshed.retries;
+  topology.fallbacks += remeshed.fallbacks;
   if (remeshed.gave_up) {
     report.warnings.push_back("the mesh could not be re-meshed soundly; its topology stays as it was");
   }
@@ -88,26 +92,38 @@ std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_
 }  // namespace
 
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                       const Parameters& parameters, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
+                       std::uint32_t original_vertices, const Parameters& parameters, UpkeepMemory& memory,
+                       FrameReport& report, StageTimer& timer) {
   const double h = parameters.dx_gamma * parameters.particle_spacing;
   const std::uint32_t first_new_id = mesh.next_id();
-  {
+  Cells flagged = detection.flagged_cells;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
     timer.begin("voxelization");
     const MeshLattice lattice(mesh.positions(), mesh.triangles(), h);
     timer.begin("topology_matching");
-    const Disagreement disagreement = find_disagreement(lattice, mesh.delta(), surface, parameters);
-    report.topology.disagreeing_nodes = disagreement.nodes.size();
+    if (pass == 0) {
+      const Disagreement disagreement = find_disagreement(lattice, mesh.delta(), surface, parameters);
+      report.topology.disagreeing_nodes = disagreement.nodes.size();
+      flagged = united(flagged, disagreement.flagged_cells);
+      flagged = united(flagged, find_component_disagreement(mesh, original_vertices, surface, parameters));
+    }
     RemeshingRequest request;
-    request.flagged_cells = united(detection.flagged_cells, disagreement.flagged_cells);
-    MatchedVoxelization matched = match_topology(lattice, surface, request.flagged_cells, parameters);
+    request.flagged_cells = flagged;
+    MatchedVoxelization matched = match_topology(lattice, surface, flagged, parameters);
     describe(matched, report.topology);
-    report.flagged_cells = request.flagged_cells.size();
+    report.flagged_cells += flagged.size();
     request.nodes = std::move(matched.nodes);
     request.gamma = std::move(matched.gamma);
     LiquidAtNodes is_liquid(surface, h);
     request.is_liquid = [&](const openvdb::Coord& node) { return is_liquid(node); };
     timer.begin("remeshing");
-    describe(remesh(mesh, lattice, request), report);
+    const RemeshingReport remeshed = remesh(mesh, lattice, request);
+    describe(remeshed, report);
+    if (remeshed.new_triangles == 0) break;
+    // What was cut may have left scraps that the liquid does not have.
+    timer.begin("topology_matching");
+    flagged = find_component_disagreement(mesh, original_vertices, surface, parameters);
+    if (flagged.empty()) break;
   }
   timer.begin("untangling");
   const std::uint32_t first_upkeep_id = mesh.next_id();

@@ -10,6 +10,7 @@
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 #include "particle_surface_tracker/stages/advection.h"
+#include "particle_surface_tracker/stages/component_disagreement.h"
 #include "particle_surface_tracker/stages/implicit_function.h"
 #include "particle_surface_tracker/stages/stretched_detail.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
@@ -132,6 +133,7 @@ struct Tracker::State {
                       lost));
     }
     note_birth(next->mesh);
+    note_bridges(next->mesh, *next->surface);
     next->band = largest_distance(next->mesh, measured, next->detection);
     describe(report, *next, frame, timer);
     timer.finish();
@@ -163,7 +165,7 @@ struct Tracker::State {
     next.detection = apply_projection(next.mesh, projection, parameters);
     report.flagged_vertices = next.detection.flagged_vertices.size();
     report.unreached_vertices = next.detection.unreached_vertices;
-    report.flagged_cells = next.detection.flagged_cells.size();
+    if (parameters.topology == TopologyMode::kKeep) report.flagged_cells = next.detection.flagged_cells.size();
     next.band = largest_distance(next.mesh, projection, next.detection);
   }
 
@@ -173,7 +175,8 @@ struct Tracker::State {
     flagged_ids.reserve(next.detection.flagged_vertices.size());
     for (const std::uint32_t v : next.detection.flagged_vertices) flagged_ids.push_back(next.mesh.ids()[v]);
     const double new_delta =
-        update_topology(next.mesh, *next.surface, next.detection, parameters, upkeep_memory, report, timer);
+        update_topology(next.mesh, *next.surface, next.detection, static_cast<std::uint32_t>(next.original_vertices),
+                        parameters, upkeep_memory, report, timer);
     next.band = std::max(next.band, new_delta);
     next.detection.flagged_vertices = vertices_of(next.mesh, flagged_ids);
   }
@@ -232,11 +235,12 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     next->detection = {};
   } else {
     state_->advect_vertices(*next, frame, report, timer);
-    next->surface = make_implicit_surface(frame, state_->parameters, timer);
-    state_->project_vertices(*next, report, timer);
+    // By what the liquid does, not by what the projection does: at details as thin as r the latter is not rigid.
     if (state_->parameters.stretched_detail == StretchedDetail::kThin) {
       thin_stretched_detail(next->mesh, state_->tracked->mesh.positions());
     }
+    next->surface = make_implicit_surface(frame, state_->parameters, timer);
+    state_->project_vertices(*next, report, timer);
     if (state_->parameters.topology == TopologyMode::kMatch) {
       state_->match_topology(*next, report, timer);
     }

@@ -24,7 +24,8 @@ struct TurnResult {
   double vertex_max = 0.0;
   double surface_rms = 0.0;  ///< Distance of the vertices from the surface.
   double surface_max = 0.0;
-  std::size_t flagged = 0;  ///< Sum over all steps.
+  std::size_t flagged = 0;  ///< Vertices and cells, sum over all steps.
+  std::size_t lost = 0;     ///< Vertices that are not there any more.
 };
 
 ParticleFrame turned_by(const ParticleFrame& frame, const Eigen::Affine3d& turn) {
@@ -51,13 +52,19 @@ TurnResult turn_once(AdvectionMethod method, double jitter) {
   for (int step = 1; step <= kSteps; ++step) {
     const double angle = 2.0 * std::acos(-1.0) * step / kSteps;
     const Eigen::Affine3d turn = pivot * Eigen::AngleAxisd(angle, axis) * pivot.inverse();
-    result.flagged += tracker.advance(turned_by(particles, turn), static_cast<std::uint64_t>(step)).flagged_vertices;
+    const FrameReport report = tracker.advance(turned_by(particles, turn), static_cast<std::uint64_t>(step));
+    result.flagged += report.flagged_vertices + report.flagged_cells;
   }
 
   const SolidJudge start(mesh.positions(), mesh.triangles());
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3d position = tracker.mesh().positions()[v].cast<double>();
-    const double from_place = (position - mesh.positions()[v].cast<double>()).norm() / kSpacing;
+  result.lost = mesh.vertex_count();
+  // Upkeep takes a few slivers out where the body is thinner than r.
+  for (std::size_t n = 0; n < tracker.mesh().vertex_count(); ++n) {
+    const Vec3d position = tracker.mesh().positions()[n].cast<double>();
+    if (tracker.mesh().ids()[n] >= mesh.vertex_count()) continue;
+    --result.lost;
+    const Vec3d place = mesh.positions()[tracker.mesh().ids()[n]].cast<double>();
+    const double from_place = (position - place).norm() / kSpacing;
     const double from_surface = start.distance(position) / kSpacing;
     result.vertex_rms += from_place * from_place;
     result.surface_rms += from_surface * from_surface;
@@ -71,8 +78,9 @@ TurnResult turn_once(AdvectionMethod method, double jitter) {
 
 TurnResult turn_and_report(const std::string& name, AdvectionMethod method, double jitter) {
   const TurnResult result = turn_once(method, jitter);
-  fmt::print("{:<22} vertices {:.4f} r RMS, {:.3f} r max; surface {:.4f} r RMS, {:.3f} r max; flagged {}\n", name,
-             result.vertex_rms, result.vertex_max, result.surface_rms, result.surface_max, result.flagged);
+  fmt::print("{:<22} vertices {:.4f} r RMS, {:.3f} r max; surface {:.4f} r RMS, {:.3f} r max; flagged {}, lost {}\n",
+             name, result.vertex_rms, result.vertex_max, result.surface_rms, result.surface_max, result.flagged,
+             result.lost);
   return result;
 }
 
@@ -81,6 +89,7 @@ void expect_exact(const TurnResult& result) {
   EXPECT_LE(result.vertex_max, 0.3);
   EXPECT_LE(result.surface_rms, 0.01);
   EXPECT_EQ(result.flagged, 0u);
+  EXPECT_LE(result.lost, 10u);
 }
 
 }  // namespace

@@ -27,17 +27,17 @@ void grow(TriangleMesh& mesh, float factor) {
   thin_stretched_detail(mesh, before);
 }
 
-TEST(StretchedDetail, ThinsByTheGrowthOfTheAreaBeyondAQuarter) {
+TEST(StretchedDetail, ThinsByTheGrowthOfTheAreaBeyondATolerance) {
   TriangleMesh mesh = sphere_with_detail();
   const std::vector<float> born = mesh.delta();
   for (int frame = 0; frame < 10; ++frame) grow(mesh, std::pow(2.0F, 0.1F));
-  for (std::size_t v = 0; v < born.size(); ++v) EXPECT_NEAR(mesh.delta()[v], born[v] * 1.25 / 4.0, 1e-5);
+  for (std::size_t v = 0; v < born.size(); ++v) EXPECT_NEAR(mesh.delta()[v], born[v] * 1.6 / 4.0, 1e-5);
 }
 
 TEST(StretchedDetail, KeepsEveryBitWhileTheAreaGrowsLittleOrShrinks) {
   TriangleMesh mesh = sphere_with_detail();
   const std::vector<float> born = mesh.delta();
-  for (const float factor : {1.0F, 1.1F, 1.0F / 1.1F, 0.8F, 0.7F, 1.0F / 0.56F, 1.1F}) {
+  for (const float factor : {1.0F, 1.1F, 1.0F / 1.1F, 0.8F, 0.7F, 1.0F / 0.56F, 1.25F}) {
     grow(mesh, factor);
     EXPECT_EQ(mesh.delta(), born) << factor;
   }
@@ -46,7 +46,7 @@ TEST(StretchedDetail, KeepsEveryBitWhileTheAreaGrowsLittleOrShrinks) {
 TEST(StretchedDetail, ComesBackWhenTheSurfaceShrinksAgain) {
   TriangleMesh mesh = sphere_with_detail();
   const std::vector<float> born = mesh.delta();
-  for (const float factor : {1.3F, 1.3F, 1.0F / 1.3F, 1.0F / 1.3F}) grow(mesh, factor);
+  for (const float factor : {1.35F, 1.35F, 1.0F / 1.35F, 1.0F / 1.35F}) grow(mesh, factor);
   for (std::size_t v = 0; v < born.size(); ++v) EXPECT_NEAR(mesh.delta()[v], born[v], 1e-6);
 }
 

@@ -44,6 +44,12 @@ LeafWords& NodeMasks::words_at(const openvdb::Coord& origin) {
   return leaves_[last_].words;
 }
 
+bool NodeMasks::contains(const openvdb::Coord& node) const {
+  const std::uint32_t leaf = find(node & ~7);
+  if (leaf == LeafIndex::none) return false;
+  return (leaves_[leaf].words[node.x() & 7] >> (8 * (node.y() & 7) + (node.z() & 7)) & 1) != 0;
+}
+
 void NodeMasks::insert(const openvdb::Coord& node) {
   const openvdb::Coord origin = node & ~(kWidth - 1);
   const openvdb::Coord at = node - origin;

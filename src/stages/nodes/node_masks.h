@@ -28,6 +28,8 @@ class NodeMasks {
 
   void insert(const openvdb::Coord& node);
 
+  bool contains(const openvdb::Coord& node) const;
+
   /// The mask of a leaf, which is made where it is not there yet. Valid until another leaf is made.
   LeafWords& words_at(const openvdb::Coord& origin);
 

@@ -105,4 +105,12 @@ double BirthRecords::smallest_angle(const Triangle& triangle) const {
   return std::max({of(triangle[0]).smallest_angle, of(triangle[1]).smallest_angle, of(triangle[2]).smallest_angle});
 }
 
+double longest_edge_at_birth(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  const std::size_t attribute = mesh.attributes().find(kAttributeName);
+  if (attribute == VertexAttributes::none) return 0.0;
+  const float* values = mesh.attributes()[attribute].values.data();
+  constexpr std::size_t kLongest = 1;
+  return std::min(values[kComponents * a + kLongest], values[kComponents * b + kLongest]);
+}
+
 }  // namespace particle_surface_tracker

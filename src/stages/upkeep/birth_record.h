@@ -50,4 +50,7 @@ class BirthRecords {
   std::size_t attribute_;
 };
 
+/// As BirthRecords::longest_edge(), of a mesh that may have no records: 0 where nothing has been noted [m].
+double longest_edge_at_birth(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b);
+
 }  // namespace particle_surface_tracker

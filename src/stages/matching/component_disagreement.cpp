@@ -1,0 +1,139 @@
+#include "particle_surface_tracker/stages/component_disagreement.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "component_labels.h"
+#include "particle_surface_tracker/core/mesh_measures.h"
+#include "stages/detection/triangle_cells.h"
+#include "stages/nodes/node_masks.h"
+#include "stages/upkeep/birth_record.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+constexpr const char* kAttributeName = "bridge";
+
+/// A component of the mesh with more triangles is no scrap.
+constexpr std::size_t kLargestScrap = 500;
+
+/// An edge must have grown by this factor since its birth to span a gap.
+constexpr double kGrowth = 1.9;
+
+/// ... and be longer than this [h].
+constexpr double kLength = 1.25;
+
+/// Cells of φ around a bridge of birth that belong to it.
+constexpr int kBridgeReach = 6;
+
+using Labels = std::vector<std::int32_t>;
+
+bool spans_components(const Triangle& t, const Labels& labels) {
+  return labels[t[0]] != labels[t[1]] || labels[t[1]] != labels[t[2]];
+}
+
+/// Whether an edge that has grown long runs from one body to another. Where a part of the liquid is
+/// thinner than r, φ = 0 can come apart and together again as the lattice lies; only where the bodies really part,
+/// edges between them grow.
+bool spans_gap(const TriangleMesh& mesh, const Triangle& t, const ComponentLabels& components, const Labels& labels,
+               double h) {
+  if (!spans_components(t, labels)) return false;
+  const auto is_of_body = [&](std::uint32_t v) {
+    return labels[v] != ComponentLabels::kFar && !components.is_speck(labels[v]);
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+    if (labels[a] == labels[b] || !is_of_body(a) || !is_of_body(b)) continue;
+    const double length = (mesh.positions()[a] - mesh.positions()[b]).cast<double>().norm();
+    if (length > std::max(kLength * h, kGrowth * longest_edge_at_birth(mesh, a, b))) return true;
+  }
+  return false;
+}
+
+/// Whether each triangle belongs to a component of the mesh that should not be there, or not be on its own.
+class Scraps {
+ public:
+  Scraps(const TriangleMesh& mesh, std::uint32_t first_new_id, const Labels& labels)
+      : component_(vertex_components(mesh.vertex_count(), mesh.triangles(), count_)), is_scrap_(count_, false) {
+    if (count_ <= 1) return;
+    std::vector<std::size_t> sizes(count_, 0);
+    for (const Triangle& t : mesh.triangles()) ++sizes[component_[t[0]]];
+    std::vector<bool> has_changed(count_, false);
+    std::map<std::pair<std::uint32_t, std::int32_t>, std::size_t> votes;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+      // Away from all others there is only the largest.
+      ++votes[{component_[v], std::max(labels[v], 0)}];
+      if (mesh.ids()[v] >= first_new_id) has_changed[component_[v]] = true;
+    }
+    std::vector<std::pair<std::size_t, std::int32_t>> choice(count_, {0, 0});
+    std::map<std::int32_t, std::pair<std::size_t, std::uint32_t>> owner;
+    for (const auto& [place, number] : votes) {
+      const auto& [component, label] = place;
+      if (number > choice[component].first) choice[component] = {number, label};
+      auto& best = owner[label];
+      if (number > best.first) best = {number, component};
+    }
+    for (std::uint32_t c = 0; c < count_; ++c) {
+      is_scrap_[c] = has_changed[c] && sizes[c] <= kLargestScrap && owner[choice[c].second].second != c;
+    }
+  }
+
+  bool contain(const Triangle& t) const { return is_scrap_[component_[t[0]]]; }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> component_;
+  std::vector<bool> is_scrap_;
+};
+
+}  // namespace
+
+std::vector<openvdb::Coord> find_component_disagreement(const TriangleMesh& mesh, std::uint32_t first_new_id,
+                                                        const ImplicitSurface& surface, const Parameters& parameters) {
+  if (parameters.detection == DetectionMethod::kTau || mesh.triangles().empty()) return {};
+  const ComponentLabels components(surface);
+  const Labels labels = components.of(mesh.positions());
+  const Scraps scraps(mesh, first_new_id, labels);
+  const std::size_t attribute = mesh.attributes().find(kAttributeName);
+  const auto is_old_bridge = [&](const Triangle& t) {
+    if (attribute == VertexAttributes::none) return false;
+    const std::vector<float>& bridge = mesh.attributes()[attribute].values;
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return bridge[v] > 0.0F; });
+  };
+  const double h = parameters.dx_gamma * parameters.particle_spacing;
+  std::vector<openvdb::Coord> cells;
+  for (const Triangle& t : mesh.triangles()) {
+    if (!scraps.contain(t) && (!spans_gap(mesh, t, components, labels, h) || is_old_bridge(t))) continue;
+    const auto at = [&](std::size_t k) -> Vec3d { return mesh.positions()[t[k]].cast<double>(); };
+    append_triangle_cells({at(0), at(1), at(2)}, h, cells);
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+void note_bridges(TriangleMesh& mesh, const ImplicitSurface& surface) {
+  const Labels labels = ComponentLabels(surface).of(mesh.positions());
+  const std::size_t attribute = mesh.attributes().add(kAttributeName, 1, {0.0F}, AttributeUse::kInternal);
+  const auto cell_of = [&](std::uint32_t v) {
+    const Vec3d cell = (mesh.positions()[v].cast<double>() / surface.dx).array().floor();
+    return openvdb::Coord(static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
+  };
+  NodeMasks cells;
+  for (const Triangle& t : mesh.triangles()) {
+    if (!spans_components(t, labels)) continue;
+    for (const std::uint32_t v : t) cells.insert(cell_of(v));
+  }
+  if (cells.leaves().empty()) return;
+  // Which component is nearest depends on how the lattice lies, by some cells.
+  cells.dilate(kBridgeReach, kBridgeReach);
+  std::vector<float>& bridge = mesh.attributes()[attribute].values;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (cells.contains(cell_of(v))) bridge[v] = 1.0F;
+  }
+}
+
+}  // namespace particle_surface_tracker

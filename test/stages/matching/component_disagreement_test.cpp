@@ -1,0 +1,107 @@
+// Pieces of mesh that the liquid does not have.
+
+#include "particle_surface_tracker/stages/component_disagreement.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "particle_surface_tracker/core/particle_grid.h"
+#include "particle_surface_tracker/stages/implicit_function.h"
+#include "particle_surface_tracker/stages/surface_triangulation.h"
+#include "particle_surface_tracker/stages/upkeep.h"
+#include "support/shapes.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+constexpr double kSpacing = 0.1;
+
+Parameters parameters() {
+  Parameters parameters;
+  parameters.particle_spacing = kSpacing;
+  return parameters;
+}
+
+/// φ = 0 of balls of radius 0.5 at some places on the x axis.
+ImplicitSurface surface_of_balls(const std::vector<double>& places) {
+  const ParticleFrame particles =
+      test::fill_with_particles(Vec3d(-2, -0.6, -0.6), Vec3d(2, 0.6, 0.6), kSpacing, 0.0, 1, [&](const Vec3d& x) {
+        return std::any_of(places.begin(), places.end(),
+                           [&](double place) { return (x - Vec3d(place, 0, 0)).norm() < 0.5; });
+      });
+  const ParticleGrid grid(particles.positions, implicit_function_cell_size(parameters()));
+  ImplicitSurface surface = evaluate_implicit_function(grid, parameters());
+  surface.triangulation = triangulate_zero_level(*surface.field, surface.dx);
+  return surface;
+}
+
+/// An ellipsoid through balls at ±0.65, whose edges have grown since it was born.
+TriangleMesh stretched_ellipsoid() {
+  TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 0.2, 3);
+  note_birth(mesh);
+  for (Vec3f& x : mesh.positions()) x = Vec3f(6.0F * x.x(), 1.25F * x.y(), 1.25F * x.z());
+  return mesh;
+}
+
+/// A large body and a small one beside it.
+TriangleMesh body_with_scrap(const Vec3d& place, std::uint32_t& first_new_id) {
+  const TriangleMesh body = test::make_sphere(Vec3d::Zero(), 0.55, 4);
+  const TriangleMesh scrap = test::make_sphere(place, 0.08, 1);
+  std::vector<Vec3f> positions = body.positions();
+  std::vector<Triangle> triangles = body.triangles();
+  first_new_id = static_cast<std::uint32_t>(positions.size());
+  positions.insert(positions.end(), scrap.positions().begin(), scrap.positions().end());
+  for (Triangle t : scrap.triangles()) {
+    for (std::uint32_t& v : t) v += first_new_id;
+    triangles.push_back(t);
+  }
+  return TriangleMesh(std::move(positions), std::move(triangles));
+}
+
+TEST(ComponentDisagreement, FlagsAMeshThatHoldsTwoBodiesTogether) {
+  const TriangleMesh mesh = stretched_ellipsoid();
+  const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
+  const std::vector<openvdb::Coord> cells =
+      find_component_disagreement(mesh, count, surface_of_balls({-0.65, 0.65}), parameters());
+  ASSERT_FALSE(cells.empty());
+  EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
+  // The bodies are 0.3 apart; cells are 0.05 wide.
+  for (const openvdb::Coord& cell : cells) EXPECT_LT(std::abs(cell.x() * 0.05), 0.5) << cell;
+}
+
+TEST(ComponentDisagreement, LeavesWhatItWasBornWithAlone) {
+  const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
+  TriangleMesh mesh = stretched_ellipsoid();
+  const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
+  note_bridges(mesh, surface);
+  EXPECT_TRUE(find_component_disagreement(mesh, count, surface, parameters()).empty());
+
+  std::uint32_t first_new_id = 0;
+  const TriangleMesh with_scrap = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
+  const auto all = static_cast<std::uint32_t>(with_scrap.vertex_count());
+  EXPECT_TRUE(find_component_disagreement(with_scrap, all, surface_of_balls({0.0}), parameters()).empty());
+}
+
+TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
+  std::uint32_t first_new_id = 0;
+  const TriangleMesh mesh = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
+  const std::vector<openvdb::Coord> cells =
+      find_component_disagreement(mesh, first_new_id, surface_of_balls({0.0}), parameters());
+  ASSERT_FALSE(cells.empty());
+  for (const openvdb::Coord& cell : cells) EXPECT_GT(cell.x() * 0.05, 0.7) << cell;
+  // With liquid of its own it is no scrap.
+  EXPECT_TRUE(find_component_disagreement(mesh, first_new_id, surface_of_balls({0.0, 1.3}), parameters()).empty());
+}
+
+TEST(ComponentDisagreement, CanBeTurnedOff) {
+  Parameters only_tau = parameters();
+  only_tau.detection = DetectionMethod::kTau;
+  const TriangleMesh mesh = stretched_ellipsoid();
+  const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
+  EXPECT_TRUE(find_component_disagreement(mesh, count, surface_of_balls({-0.65, 0.65}), only_tau).empty());
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker
