@@ -70,6 +70,8 @@ LineSigns::LineSigns(const std::vector<Crossing>& crossings) : index_(64) {
   for (const Column& column : columns_) {
     for (int row = 0; row < kRows; ++row) {
       const auto begin = sorted.begin() + column[row];
+      // A column has one entry more than rows, which cppcheck does not see.
+      // cppcheck-suppress containerOutOfBounds
       const auto end = sorted.begin() + column[row + 1];
       if (!std::is_sorted(begin, end, is_before)) std::stable_sort(begin, end, is_before);
       std::int32_t winding = 0;
@@ -89,6 +91,7 @@ LineSigns::Leaf LineSigns::leaf(const openvdb::Coord& origin) const {
   const Column& column = columns_[number];
   for (int row = 0; row < kRows; ++row) {
     const std::uint32_t begin = column[row];
+    // cppcheck-suppress containerOutOfBounds
     const std::uint32_t end = column[row + 1];
     if (begin == end) continue;
     auto next = static_cast<std::uint32_t>(
