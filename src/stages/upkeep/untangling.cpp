@@ -62,9 +62,11 @@ class Untangling {
   bool is_new_fold(std::uint32_t half_edge, const Vec3d& normal_here) const {
     const Vec3d normal_beyond = normal(connected_.twins[half_edge] / 3);
     const double dot = normal_here.dot(normal_beyond);
-    // Nearly all edges are settled without a root.
-    const double limit = std::cos(kFold);
-    if (dot > 0.0 && dot * dot > limit * limit * normal_here.squaredNorm() * normal_beyond.squaredNorm()) return false;
+    // Nearly all edges are settled by the sign, or without a root.
+    if (dot >= 0.0) return false;
+    if (dot * dot < cosine_of_fold_ * cosine_of_fold_ * normal_here.squaredNorm() * normal_beyond.squaredNorm()) {
+      return false;
+    }
     const double at_birth =
         births_.largest_fold(start_of(connected_.triangles, half_edge), end_of(connected_.triangles, half_edge));
     return fold_between(normal_here, normal_beyond) > std::max(kFold, at_birth + kFoldGrowth);
@@ -206,6 +208,7 @@ class Untangling {
     return !find_crossing(connected_, affected, crossing);
   }
 
+  const double cosine_of_fold_ = std::cos(kFold);  // negative
   TriangleMesh& mesh_;
   ConnectedTriangles connected_;
   BirthRecords births_;
