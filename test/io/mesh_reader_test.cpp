@@ -9,11 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/temporary_folder.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/io/mesh_writer.h"
 #include "support/shapes.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -106,8 +106,8 @@ TEST(ReadPly, ReadsBigEndian) {
 
 TEST(ReadPly, EveryTruncationIsAnInputError) {
   const test::TemporaryFolder folder;
-  write_ply(folder.file("whole.ply"), test::make_box({0, 0, 0}, {1, 1, 1}));
-  std::ifstream file(folder.file("whole.ply"), std::ios::binary);
+  write_ply((folder / "whole.ply"), test::make_box({0, 0, 0}, {1, 1, 1}));
+  std::ifstream file((folder / "whole.ply"), std::ios::binary);
   const std::string binary{std::istreambuf_iterator<char>(file), {}};
   for (std::size_t size = 0; size < binary.size(); ++size) {
     EXPECT_THROW(read_initial_mesh(folder.write("cut.ply", binary.substr(0, size))), InputError) << size;
@@ -256,8 +256,8 @@ TEST(Merging, MinusZeroIsZero) {
 TEST(Merging, PartsThatTouchInAPointStayApart) {
   const test::TemporaryFolder folder;
   const TriangleMesh mesh = test::joined({test::make_box({0, 0, 0}, {1, 1, 1}), test::make_box({1, 1, 1}, {2, 2, 2})});
-  write_obj(folder.file("mesh.obj"), mesh);
-  const LoadedMesh loaded = read_initial_mesh(folder.file("mesh.obj"));
+  write_obj((folder / "mesh.obj"), mesh);
+  const LoadedMesh loaded = read_initial_mesh((folder / "mesh.obj"));
   EXPECT_EQ(loaded.mesh.vertex_count(), 16U);
   EXPECT_THAT(loaded.warnings, IsEmpty());
 }
@@ -274,8 +274,8 @@ TEST(Merging, DropsTrianglesThatBecomeDegenerate) {
 
 TEST(ReadInitialMesh, TurnsAMeshThatIsInsideOut) {
   const test::TemporaryFolder folder;
-  write_ply(folder.file("mesh.ply"), test::turned(test::make_box({0, 0, 0}, {1, 1, 1})));
-  const LoadedMesh loaded = read_initial_mesh(folder.file("mesh.ply"));
+  write_ply((folder / "mesh.ply"), test::turned(test::make_box({0, 0, 0}, {1, 1, 1})));
+  const LoadedMesh loaded = read_initial_mesh((folder / "mesh.ply"));
   EXPECT_DOUBLE_EQ(volume_of(loaded.mesh), 1.0);
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_THAT(loaded.warnings[0], HasSubstr("inside out"));
@@ -285,12 +285,12 @@ TEST(ReadInitialMesh, BadMeshesAreMeshErrorsThatNameTheFile) {
   const test::TemporaryFolder folder;
   const TriangleMesh box = test::make_box({0, 0, 0}, {1, 1, 1});
   const auto expect = [&](const TriangleMesh& mesh, const std::string& text) {
-    write_ply(folder.file("bad.ply"), mesh);
+    write_ply((folder / "bad.ply"), mesh);
     try {
-      read_initial_mesh(folder.file("bad.ply"));
+      read_initial_mesh((folder / "bad.ply"));
       ADD_FAILURE() << "accepted, instead of: " << text;
     } catch (const MeshError& error) {
-      EXPECT_THAT(error.what(), AllOf(HasSubstr(folder.file("bad.ply")), HasSubstr(text)));
+      EXPECT_THAT(error.what(), AllOf(HasSubstr((folder / "bad.ply")), HasSubstr(text)));
     }
   };
   std::vector<Triangle> triangles = box.triangles();
@@ -326,7 +326,7 @@ TEST(ReadInitialMesh, FilesThatAreNoMeshesAreInputErrors) {
 
 TEST(ReadInitialMesh, MissingFilesAndFoldersAreInputErrors) {
   const test::TemporaryFolder folder;
-  for (const std::string& path : {folder.file("missing.ply"), folder.file("")}) {
+  for (const std::string& path : {(folder / "missing.ply"), (folder / "")}) {
     try {
       read_initial_mesh(path);
       ADD_FAILURE() << path;

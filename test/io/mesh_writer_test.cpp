@@ -14,10 +14,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/temporary_folder.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "support/shapes.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -63,8 +63,8 @@ const std::vector<float>& values_of(const TriangleMesh& mesh, const char* name) 
 TEST(WritePly, ComesBackBitForBit) {
   const test::TemporaryFolder folder;
   const TriangleMesh mesh = decorated_torus();
-  write_ply(folder.file("mesh.ply"), mesh);
-  const LoadedMesh loaded = read_initial_mesh(folder.file("mesh.ply"));
+  write_ply((folder / "mesh.ply"), mesh);
+  const LoadedMesh loaded = read_initial_mesh((folder / "mesh.ply"));
   EXPECT_THAT(loaded.warnings, IsEmpty());
   EXPECT_EQ(bits_of(loaded.mesh.positions()), bits_of(mesh.positions()));
   EXPECT_EQ(loaded.mesh.triangles(), mesh.triangles());
@@ -85,9 +85,9 @@ TEST(WritePly, WritesTheseBytes) {
   mesh.attributes()[stretch].values[1] = 8.0F;
   const std::size_t color = mesh.attributes().add(TriangleMesh::color_name, 4, {0, 0, 0, 1});
   mesh.attributes()[color].values = {1.5F, -3.0F, 0.5F, std::nanf(""), 0, 0, 0, 1, 0, 0, 0, 1};
-  write_ply(folder.file("mesh.ply"), mesh);
+  write_ply((folder / "mesh.ply"), mesh);
 
-  const std::string content = content_of(folder.file("mesh.ply"));
+  const std::string content = content_of((folder / "mesh.ply"));
   const std::string header =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
       "property float x\nproperty float y\nproperty float z\nproperty float delta\nproperty uint id\n"
@@ -109,16 +109,16 @@ TEST(WritePly, WritesTheseBytes) {
 TEST(WritePly, ReplacesAFile) {
   const test::TemporaryFolder folder;
   folder.write("mesh.ply", "old");
-  write_ply(folder.file("mesh.ply"), decorated_torus());
-  EXPECT_EQ(content_of(folder.file("mesh.ply")).substr(0, 4), "ply\n");
+  write_ply((folder / "mesh.ply"), decorated_torus());
+  EXPECT_EQ(content_of((folder / "mesh.ply")).substr(0, 4), "ply\n");
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
 TEST(WriteObj, ComesBackBitForBit) {
   const test::TemporaryFolder folder;
   const TriangleMesh mesh = decorated_torus();
-  write_obj(folder.file("mesh.obj"), mesh);
-  const LoadedMesh loaded = read_initial_mesh(folder.file("mesh.obj"));
+  write_obj((folder / "mesh.obj"), mesh);
+  const LoadedMesh loaded = read_initial_mesh((folder / "mesh.obj"));
   EXPECT_THAT(loaded.warnings, IsEmpty());
   EXPECT_EQ(bits_of(loaded.mesh.positions()), bits_of(mesh.positions()));
   EXPECT_EQ(loaded.mesh.triangles(), mesh.triangles());
@@ -137,10 +137,10 @@ TEST(WriteFormats, FloatExtremesComeBack) {
   mesh.positions()[1].x() = Limits::max();
   mesh.positions()[2] = Vec3f(1.0F + Limits::epsilon(), 16777217.0F, 0.1F);
   mesh.positions()[7].z() = std::nextafter(Limits::max(), 0.0F);
-  write_ply(folder.file("mesh.ply"), mesh);
-  write_obj(folder.file("mesh.obj"), mesh);
-  EXPECT_EQ(bits_of(read_initial_mesh(folder.file("mesh.ply")).mesh.positions()), bits_of(mesh.positions()));
-  EXPECT_EQ(bits_of(read_initial_mesh(folder.file("mesh.obj")).mesh.positions()), bits_of(mesh.positions()));
+  write_ply((folder / "mesh.ply"), mesh);
+  write_obj((folder / "mesh.obj"), mesh);
+  EXPECT_EQ(bits_of(read_initial_mesh((folder / "mesh.ply")).mesh.positions()), bits_of(mesh.positions()));
+  EXPECT_EQ(bits_of(read_initial_mesh((folder / "mesh.obj")).mesh.positions()), bits_of(mesh.positions()));
 }
 
 /// Writing to `path` must fail with an error that names the path and the reason.
@@ -157,19 +157,19 @@ void expect_output_error(const std::string& path, const std::string& reason) {
 
 TEST(WriteFailure, MissingFolder) {
   const test::TemporaryFolder folder;
-  expect_output_error(folder.file("missing/mesh.ply"), std::strerror(ENOENT));
+  expect_output_error((folder / "missing/mesh.ply"), std::strerror(ENOENT));
 }
 
 TEST(WriteFailure, PathBelowAFile) {
   const test::TemporaryFolder folder;
   folder.write("file", "content");
-  expect_output_error(folder.file("file/mesh.ply"), std::strerror(ENOTDIR));
+  expect_output_error((folder / "file/mesh.ply"), std::strerror(ENOTDIR));
 }
 
 TEST(WriteFailure, PathIsAFolder) {
   const test::TemporaryFolder folder;
-  mkdir(folder.file("mesh.ply").c_str(), 0777);
-  expect_output_error(folder.file("mesh.ply"), std::strerror(EISDIR));
+  mkdir((folder / "mesh.ply").c_str(), 0777);
+  expect_output_error((folder / "mesh.ply"), std::strerror(EISDIR));
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
@@ -183,9 +183,9 @@ TEST(WriteFailure, DeviceIsNotReplaced) {
 TEST(WriteFailure, ReadOnlyFolder) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const test::TemporaryFolder folder;
-  chmod(folder.file("").c_str(), 0555);
-  expect_output_error(folder.file("mesh.ply"), std::strerror(EACCES));
-  chmod(folder.file("").c_str(), 0755);
+  chmod((folder / "").c_str(), 0555);
+  expect_output_error((folder / "mesh.ply"), std::strerror(EACCES));
+  chmod((folder / "").c_str(), 0755);
 }
 
 TEST(WriteFailure, NoRoomLeavesTheOldFileAndNothingElse) {
@@ -197,10 +197,10 @@ TEST(WriteFailure, NoRoomLeavesTheOldFileAndNothingElse) {
   struct rlimit small = before;
   small.rlim_cur = 2000;
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  expect_output_error(folder.file("mesh.ply"), std::strerror(EFBIG));
+  expect_output_error((folder / "mesh.ply"), std::strerror(EFBIG));
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, old_handler);
-  EXPECT_EQ(content_of(folder.file("mesh.ply")), "old");
+  EXPECT_EQ(content_of((folder / "mesh.ply")), "old");
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 

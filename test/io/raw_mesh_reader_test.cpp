@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/temporary_folder.h"
 #include "particle_surface_tracker/core/error.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker {
 namespace {

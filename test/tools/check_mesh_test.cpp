@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "io/temporary_folder.h"
 #include "particle_surface_tracker/io/mesh_writer.h"
 #include "support/shapes.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker::test {
 namespace {
@@ -30,17 +30,17 @@ struct Outcome {
 class CheckMesh : public testing::Test {
  protected:
   CheckMesh() {
-    write_ply(folder_.file("good.ply"), make_sphere(Vec3d::Zero(), 1.0, 3));
-    write_ply(folder_.file("hollow.ply"),
+    write_ply((folder_ / "good.ply"), make_sphere(Vec3d::Zero(), 1.0, 3));
+    write_ply((folder_ / "hollow.ply"),
               joined({make_sphere(Vec3d::Zero(), 1.0, 2), turned(make_sphere(Vec3d::Zero(), 0.5, 1))}));
     // Of 2 · 128 triangles, those near the circle where the spheres cross.
-    write_ply(folder_.file("crossing.ply"),
+    write_ply((folder_ / "crossing.ply"),
               joined({make_sphere(Vec3d::Zero(), 1.0, 2), make_sphere({1.5, 0.1, 0.2}, 1.0, 2)}));
     TriangleMesh open = make_box({0, 0, 0}, {1, 1, 1});
     std::vector<Triangle> triangles = open.triangles();
     triangles.pop_back();
     open.set_triangles(triangles);
-    write_ply(folder_.file("open.ply"), open);
+    write_ply((folder_ / "open.ply"), open);
     folder_.write("damaged.ply", "ply\nnot really");
   }
 
@@ -48,14 +48,14 @@ class CheckMesh : public testing::Test {
   Outcome run(const std::string& arguments) {
     std::string command = "'" PST_CHECK_MESH "' " + arguments + " >@/stdout 2>@/stderr";
     for (std::size_t at = command.find('@'); at != std::string::npos; at = command.find('@')) {
-      command.replace(at, 1, folder_.file(""));
+      command.replace(at, 1, (folder_ / ""));
     }
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of("stdout"), content_of("stderr")};
   }
 
   std::string content_of(const std::string& name) const {
-    std::ifstream file(folder_.file(name));
+    std::ifstream file((folder_ / name));
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
@@ -120,7 +120,7 @@ TEST_F(CheckMesh, JsonHasEveryKindOfDefect) {
 
 TEST_F(CheckMesh, JoinsVerticesOfTheSamePosition) {
   // Two boxes that touch in a corner: manifold as written, and not when a reader joins vertices.
-  write_ply(folder_.file("corner.ply"), joined({make_box({0, 0, 0}, {1, 1, 1}), make_box({1, 1, 1}, {2, 2, 2})}));
+  write_ply((folder_ / "corner.ply"), joined({make_box({0, 0, 0}, {1, 1, 1}), make_box({1, 1, 1}, {2, 2, 2})}));
   const Outcome outcome = run("--max-self-intersections 1 @/corner.ply");
   EXPECT_EQ(outcome.code, 3);
   expect_words(outcome.out, {"with 1 vertices joined", "1 vertices are non-manifold", "vertex 7 at (1, 1, 1)"});

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -23,11 +24,16 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
 
+  /// Path of a file in it.
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  /// Writes a file in it.
+  /// \return its path.
   std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(file(name), std::ios::binary) << content;
-    return file(name);
+    std::ofstream(*this / name, std::ios::binary) << content;
+    return *this / name;
   }
 
   std::size_t entry_count() const {
