@@ -40,6 +40,9 @@ Json cpu_times_of(const FrameReport& report) {
 
 Json topology_of(const FrameReport::Topology& topology) {
   return {{"disagreeing_nodes", topology.disagreeing_nodes},
+          {"uncovered_particles", topology.uncovered_particles},
+          {"conflicting_nodes", topology.conflicting_nodes},
+          {"passes", topology.passes},
           {"unknowns", topology.unknowns},
           {"iterations", topology.iterations},
           {"enlargements", topology.enlargements},

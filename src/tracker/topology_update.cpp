@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <vector>
 
 #include "fresh_delta.h"
 #include "particle_surface_tracker/stages/component_disagreement.h"
+#include "particle_surface_tracker/stages/detail_conflict.h"
 #include "particle_surface_tracker/stages/disagreement.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 #include "particle_surface_tracker/stages/remeshing.h"
@@ -21,29 +21,16 @@ namespace {
 using Cells = std::vector<openvdb::Coord>;
 
 /// How often a frame's mesh is matched and re-meshed: again only where that has left scraps.
-constexpr int kMostPasses = 2;
+constexpr int kMostPasses = 3;
+
+/// A particle that is not in the mesh is to be within r of it; until it is looked at again the mesh moves on [r].
+constexpr double kCover = 0.9;
 
 Cells united(const Cells& a, const Cells& b) {
   Cells all;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
   return all;
 }
-
-/// Tells liquid from air at nodes of Γ. Prepared when it is first asked, which few frames do.
-class LiquidAtNodes {
- public:
-  LiquidAtNodes(const ImplicitSurface& surface, double h) : surface_(surface), h_(h) {}
-
-  bool operator()(const openvdb::Coord& node) {
-    if (!field_) field_.emplace(surface_, h_);
-    return field_->distances({node}, h_).front() < 0.0f;
-  }
-
- private:
-  const ImplicitSurface& surface_;
-  double h_;
-  std::optional<FieldAtNodes> field_;
-};
 
 void describe(const MatchedVoxelization& matched, FrameReport::Topology& topology) {
   topology.unknowns += matched.statistics.unknowns;
@@ -91,39 +78,55 @@ std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_
 
 }  // namespace
 
-double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                       std::uint32_t original_vertices, const Parameters& parameters, UpkeepMemory& memory,
-                       FrameReport& report, StageTimer& timer) {
-  const double h = parameters.dx_gamma * parameters.particle_spacing;
+double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, const ImplicitSurface& surface,
+                       const Detection& detection, std::uint32_t original_vertices, const Parameters& parameters,
+                       UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
+  const double r = parameters.particle_spacing;
+  const double h = parameters.dx_gamma * r;
   const std::uint32_t first_new_id = mesh.next_id();
-  Cells flagged = detection.flagged_cells;
+  const IsosurfaceQuery isosurface(surface, h);
+  timer.begin("topology_matching");
+  ComponentDisagreement pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
+  std::vector<Vec3f> uncovered;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     timer.begin("voxelization");
     const MeshLattice lattice(mesh.positions(), mesh.triangles(), h);
     timer.begin("topology_matching");
+    Cells flagged = united(pieces.bridge_cells, pieces.scrap_cells);
     if (pass == 0) {
-      const Disagreement disagreement = find_disagreement(lattice, mesh.delta(), surface, parameters);
+      const Disagreement disagreement = find_disagreement(lattice, mesh.delta(), isosurface, parameters);
       report.topology.disagreeing_nodes = disagreement.nodes.size();
-      flagged = united(flagged, disagreement.flagged_cells);
-      flagged = united(flagged, find_component_disagreement(mesh, original_vertices, surface, parameters));
+      flagged = united(united(flagged, detection.flagged_cells), disagreement.flagged_cells);
+      uncovered = find_uncovered_particles(particles, lattice, {}, mesh, isosurface, kCover * r, parameters);
     }
+    // Where matching alone has not helped, detail gives way.
+    if (pass > 0) pieces.scrap_cells = flagged;
+    const Cells at_conflicts = find_conflicting_nodes(lattice, pieces, uncovered, isosurface, parameters);
+    report.topology.uncovered_particles += uncovered.size();
+    report.topology.conflicting_nodes += at_conflicts.size();
+    ++report.topology.passes;
     RemeshingRequest request;
     request.flagged_cells = flagged;
-    MatchedVoxelization matched = match_topology(lattice, surface, flagged, parameters);
+    MatchedVoxelization matched = match_topology(lattice, isosurface, flagged, parameters, at_conflicts);
     describe(matched, report.topology);
     report.flagged_cells += flagged.size();
-    request.nodes = std::move(matched.nodes);
-    request.gamma = std::move(matched.gamma);
-    LiquidAtNodes is_liquid(surface, h);
-    request.is_liquid = [&](const openvdb::Coord& node) { return is_liquid(node); };
+    request.nodes = matched.nodes;
+    request.gamma = matched.gamma;
+    request.is_liquid = [&](const openvdb::Coord& node) {
+      return isosurface.field().distances({node}, h).front() < 0.0F;
+    };
     timer.begin("remeshing");
     const RemeshingReport remeshed = remesh(mesh, lattice, request);
     describe(remeshed, report);
-    if (remeshed.new_triangles == 0) break;
+    if (!remeshed.changed()) break;
     // What was cut may have left scraps that the liquid does not have.
     timer.begin("topology_matching");
-    flagged = find_component_disagreement(mesh, original_vertices, surface, parameters);
-    if (flagged.empty()) break;
+    pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
+    uncovered.clear();
+    if (pass == 0) {
+      uncovered = find_uncovered_particles(particles, lattice, matched, mesh, isosurface, r, parameters);
+    }
+    if (pieces.none() && uncovered.empty()) break;
   }
   timer.begin("untangling");
   const std::uint32_t first_upkeep_id = mesh.next_id();

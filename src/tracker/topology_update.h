@@ -12,13 +12,14 @@ namespace particle_surface_tracker {
 
 /// Stages 3 to 5 of a frame: matches the topology of the projected mesh to that of φ (Sec. 6), re-meshes where it
 /// changed (Sec. 7), keeps the triangles in shape (Sec. 8), and measures δ of every vertex that is new or has moved.
+/// \param particles of the frame [m].
 /// \param detection what the projection flagged; where else mesh and φ disagree is found here.
 /// \param original_vertices vertices of the first mesh have ids below it.
 /// \param memory kept from frame to frame.
 /// \param report receives the counts, and a warning where something could not be done.
 /// \return the largest |δ| of those vertices [m].
-double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                       std::uint32_t original_vertices, const Parameters& parameters, UpkeepMemory& memory,
-                       FrameReport& report, StageTimer& timer);
+double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, const ImplicitSurface& surface,
+                       const Detection& detection, std::uint32_t original_vertices, const Parameters& parameters,
+                       UpkeepMemory& memory, FrameReport& report, StageTimer& timer);
 
 }  // namespace particle_surface_tracker

@@ -133,7 +133,7 @@ struct Tracker::State {
                       lost));
     }
     note_birth(next->mesh);
-    note_bridges(next->mesh, *next->surface);
+    note_bridges(next->mesh, IsosurfaceQuery(*next->surface, parameters.dx_gamma * r()));
     next->band = largest_distance(next->mesh, measured, next->detection);
     describe(report, *next, frame, timer);
     timer.finish();
@@ -170,13 +170,13 @@ struct Tracker::State {
   }
 
   /// Splits and merges the mesh, and keeps its triangles in shape. What was flagged and is still there stays flagged.
-  void match_topology(Tracked& next, FrameReport& report, StageTimer& timer) {
+  void match_topology(Tracked& next, const ParticleFrame& frame, FrameReport& report, StageTimer& timer) {
     std::vector<std::uint32_t> flagged_ids;
     flagged_ids.reserve(next.detection.flagged_vertices.size());
     for (const std::uint32_t v : next.detection.flagged_vertices) flagged_ids.push_back(next.mesh.ids()[v]);
     const double new_delta =
-        update_topology(next.mesh, *next.surface, next.detection, static_cast<std::uint32_t>(next.original_vertices),
-                        parameters, upkeep_memory, report, timer);
+        update_topology(next.mesh, frame.positions, *next.surface, next.detection,
+                        static_cast<std::uint32_t>(next.original_vertices), parameters, upkeep_memory, report, timer);
     next.band = std::max(next.band, new_delta);
     next.detection.flagged_vertices = vertices_of(next.mesh, flagged_ids);
   }
@@ -242,7 +242,7 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     next->surface = make_implicit_surface(frame, state_->parameters, timer);
     state_->project_vertices(*next, report, timer);
     if (state_->parameters.topology == TopologyMode::kMatch) {
-      state_->match_topology(*next, report, timer);
+      state_->match_topology(*next, frame, report, timer);
     }
     decay_delta(next->mesh, 1e-9 * static_cast<double>(frame.stamp_ns - next->particles.stamp_ns), state_->parameters);
     next->particles = frame;

@@ -97,13 +97,12 @@ SequenceLimits limits_for(const std::string& name) {
     limits.original_vertices = 0.85;
   }
   if (name == "splitting_armadillo") {
-    limits.equal_topology = 0.86;
     limits.volume_drift = 0.02;
-    limits.original_vertices = 0.50;
+    limits.original_vertices = 0.49;
   }
   if (name == "falling_objects") {
-    limits.equal_topology = 0.60;
-    limits.covered_frames = 0.53;
+    limits.equal_topology = 0.94;
+    limits.covered_frames = 0.88;
   }
   return limits;
 }

@@ -33,20 +33,23 @@ struct FrameReport {
 
   /// Topology matching and re-meshing (Secs. 6, 7). All 0 in a frame without a change of topology.
   struct Topology {
-    std::size_t disagreeing_nodes = 0;   ///< Nodes of Γ where mesh and φ disagree about inside and outside.
-    std::size_t unknowns = 0;            ///< Nodes of Γ that were solved for.
-    std::size_t iterations = 0;          ///< Of the solver.
-    std::size_t enlargements = 0;        ///< How often the region that was solved for turned out too small.
-    std::size_t changed_nodes = 0;       ///< Nodes of Γ that changed sides.
-    std::size_t complex_cells = 0;       ///< Cells that the mesh passes through in more than one simple sheet.
-    std::size_t tangled_cells = 0;       ///< Of these, those re-meshed because sheets overlap.
-    std::size_t deep_cells = 0;          ///< Cells re-meshed because Γ sees no surface where the mesh has one.
-    std::size_t marked_by_growth = 0;    ///< Cells re-meshed so that the cut around the others is simple.
-    std::size_t remeshed_cells = 0;      ///< All cells that were re-meshed.
-    std::size_t removed_components = 0;  ///< Pieces too small for Γ that φ does not confirm.
-    std::size_t new_vertices = 0;        ///< Made by re-meshing.
-    std::size_t retries = 0;             ///< How often the re-meshed region had to grow because it could not be filled.
-    std::size_t fallbacks = 0;           ///< Of these, how often a whole component, or everything, was made anew.
+    std::size_t disagreeing_nodes = 0;    ///< Nodes of Γ where mesh and φ disagree about inside and outside.
+    std::size_t uncovered_particles = 0;  ///< Particles that the mesh did not hold.
+    std::size_t conflicting_nodes = 0;    ///< Nodes of Γ where detail gave way to the side of φ.
+    std::size_t passes = 0;               ///< How often mesh and φ were matched.
+    std::size_t unknowns = 0;             ///< Nodes of Γ that were solved for.
+    std::size_t iterations = 0;           ///< Of the solver.
+    std::size_t enlargements = 0;         ///< How often the region that was solved for turned out too small.
+    std::size_t changed_nodes = 0;        ///< Nodes of Γ that changed sides.
+    std::size_t complex_cells = 0;        ///< Cells that the mesh passes through in more than one simple sheet.
+    std::size_t tangled_cells = 0;        ///< Of these, those re-meshed because sheets overlap.
+    std::size_t deep_cells = 0;           ///< Cells re-meshed because Γ sees no surface where the mesh has one.
+    std::size_t marked_by_growth = 0;     ///< Cells re-meshed so that the cut around the others is simple.
+    std::size_t remeshed_cells = 0;       ///< All cells that were re-meshed.
+    std::size_t removed_components = 0;   ///< Pieces too small for Γ that φ does not confirm.
+    std::size_t new_vertices = 0;         ///< Made by re-meshing.
+    std::size_t retries = 0;    ///< How often the re-meshed region had to grow because it could not be filled.
+    std::size_t fallbacks = 0;  ///< Of these, how often a whole component, or everything, was made anew.
   };
   Topology topology;
 

@@ -4,8 +4,8 @@
 
 #include <openvdb/Types.h>
 
-#include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/parameters.h"
+#include "particle_surface_tracker/stages/isosurface_query.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
 namespace particle_surface_tracker {
@@ -22,9 +22,9 @@ struct Disagreement {
 /// Only nodes next to the isosurface and next to the mesh are looked at (docs/topology_matching.md).
 /// \param lattice of the mesh.
 /// \param delta δ of each vertex of the mesh [m].
-/// \param surface of the frame that the mesh is now in.
+/// \param isosurface of the frame that the mesh is now in.
 /// \return nothing where `detection` is kTau.
 Disagreement find_disagreement(const MeshLattice& lattice, const std::vector<float>& delta,
-                               const ImplicitSurface& surface, const Parameters& parameters);
+                               const IsosurfaceQuery& isosurface, const Parameters& parameters);
 
 }  // namespace particle_surface_tracker

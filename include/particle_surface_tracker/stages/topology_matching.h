@@ -5,8 +5,8 @@
 
 #include <openvdb/Types.h>
 
-#include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/parameters.h"
+#include "particle_surface_tracker/stages/isosurface_query.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
 namespace particle_surface_tracker {
@@ -40,10 +40,13 @@ struct MatchedVoxelization {
 /// Without flagged cells nothing is done, unless matching_frames asks for it: then all nodes within matching_reach of
 /// mesh or isosurface are looked at.
 /// \param lattice of the mesh.
-/// \param surface of the frame that the mesh is now in.
+/// \param isosurface of the frame that the mesh is now in.
 /// \param flagged_cells cells of Γ.
+/// \param at_conflicts nodes where Γ gets the side of φ, whatever the mesh says: ψ counts where it leads away from the
+/// other side, and is 0 where it does not. They count as flagged.
 /// \throw TrackingError if the whole domain is asked for (matching_reach 0) and has more than 2^28 nodes.
-MatchedVoxelization match_topology(const MeshLattice& lattice, const ImplicitSurface& surface,
-                                   const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters);
+MatchedVoxelization match_topology(const MeshLattice& lattice, const IsosurfaceQuery& isosurface,
+                                   const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters,
+                                   const std::vector<openvdb::Coord>& at_conflicts = {});
 
 }  // namespace particle_surface_tracker

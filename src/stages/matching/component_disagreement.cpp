@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kAttributeName = "bridge";
 
-/// A component of the mesh with more triangles is no scrap.
+/// A component of the mesh with more triangles may have detail that is worth keeping.
 constexpr std::size_t kLargestScrap = 500;
 
 /// An edge must have grown by this factor since its birth to span a gap.
@@ -53,11 +53,13 @@ bool spans_gap(const TriangleMesh& mesh, const Triangle& t, const ComponentLabel
   return false;
 }
 
-/// Whether each triangle belongs to a component of the mesh that should not be there, or not be on its own.
-class Scraps {
+/// Components of the mesh that should not be there, or not be on their own.
+class StrayPieces {
  public:
-  Scraps(const TriangleMesh& mesh, std::uint32_t first_new_id, const Labels& labels)
-      : component_(vertex_components(mesh.vertex_count(), mesh.triangles(), count_)), is_scrap_(count_, false) {
+  enum class Kind : std::uint8_t { kNone, kScrap, kBody };
+
+  StrayPieces(const TriangleMesh& mesh, std::uint32_t first_new_id, const Labels& labels)
+      : component_(vertex_components(mesh.vertex_count(), mesh.triangles(), count_)), kinds_(count_, Kind::kNone) {
     if (count_ <= 1) return;
     std::vector<std::size_t> sizes(count_, 0);
     for (const Triangle& t : mesh.triangles()) ++sizes[component_[t[0]]];
@@ -77,26 +79,28 @@ class Scraps {
       if (number > best.first) best = {number, component};
     }
     for (std::uint32_t c = 0; c < count_; ++c) {
-      is_scrap_[c] = has_changed[c] && sizes[c] <= kLargestScrap && owner[choice[c].second].second != c;
+      if (!has_changed[c] || owner[choice[c].second].second == c) continue;
+      kinds_[c] = sizes[c] <= kLargestScrap ? Kind::kScrap : Kind::kBody;
     }
   }
 
-  bool contain(const Triangle& t) const { return is_scrap_[component_[t[0]]]; }
+  /// Of the component that a triangle belongs to.
+  Kind kind_of(const Triangle& t) const { return kinds_[component_[t[0]]]; }
 
  private:
   std::size_t count_ = 0;
   std::vector<std::uint32_t> component_;
-  std::vector<bool> is_scrap_;
+  std::vector<Kind> kinds_;
 };
 
 }  // namespace
 
-std::vector<openvdb::Coord> find_component_disagreement(const TriangleMesh& mesh, std::uint32_t first_new_id,
-                                                        const ImplicitSurface& surface, const Parameters& parameters) {
+ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std::uint32_t first_new_id,
+                                                  const IsosurfaceQuery& isosurface, const Parameters& parameters) {
   if (parameters.detection == DetectionMethod::kTau || mesh.triangles().empty()) return {};
-  const ComponentLabels components(surface);
+  const ComponentLabels& components = isosurface.components();
   const Labels labels = components.of(mesh.positions());
-  const Scraps scraps(mesh, first_new_id, labels);
+  const StrayPieces pieces(mesh, first_new_id, labels);
   const std::size_t attribute = mesh.attributes().find(kAttributeName);
   const auto is_old_bridge = [&](const Triangle& t) {
     if (attribute == VertexAttributes::none) return false;
@@ -104,22 +108,31 @@ std::vector<openvdb::Coord> find_component_disagreement(const TriangleMesh& mesh
     return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return bridge[v] > 0.0F; });
   };
   const double h = parameters.dx_gamma * parameters.particle_spacing;
-  std::vector<openvdb::Coord> cells;
+  ComponentDisagreement found;
   for (const Triangle& t : mesh.triangles()) {
-    if (!scraps.contain(t) && (!spans_gap(mesh, t, components, labels, h) || is_old_bridge(t))) continue;
-    const auto at = [&](std::size_t k) -> Vec3d { return mesh.positions()[t[k]].cast<double>(); };
-    append_triangle_cells({at(0), at(1), at(2)}, h, cells);
+    const auto append_to = [&](std::vector<openvdb::Coord>& cells) {
+      const auto at = [&](std::size_t k) -> Vec3d { return mesh.positions()[t[k]].cast<double>(); };
+      append_triangle_cells({at(0), at(1), at(2)}, h, cells);
+    };
+    const StrayPieces::Kind kind = pieces.kind_of(t);
+    if (kind == StrayPieces::Kind::kScrap) append_to(found.scrap_cells);
+    if (kind == StrayPieces::Kind::kBody) append_to(found.stray_cells);
+    if (kind != StrayPieces::Kind::kScrap && spans_gap(mesh, t, components, labels, h) && !is_old_bridge(t)) {
+      append_to(found.bridge_cells);
+    }
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
+  for (std::vector<openvdb::Coord>* cells : {&found.bridge_cells, &found.scrap_cells, &found.stray_cells}) {
+    std::sort(cells->begin(), cells->end());
+    cells->erase(std::unique(cells->begin(), cells->end()), cells->end());
+  }
+  return found;
 }
 
-void note_bridges(TriangleMesh& mesh, const ImplicitSurface& surface) {
-  const Labels labels = ComponentLabels(surface).of(mesh.positions());
+void note_bridges(TriangleMesh& mesh, const IsosurfaceQuery& isosurface) {
+  const Labels labels = isosurface.components().of(mesh.positions());
   const std::size_t attribute = mesh.attributes().add(kAttributeName, 1, {0.0F}, AttributeUse::kInternal);
   const auto cell_of = [&](std::uint32_t v) {
-    const Vec3d cell = (mesh.positions()[v].cast<double>() / surface.dx).array().floor();
+    const Vec3d cell = (mesh.positions()[v].cast<double>() / isosurface.surface().dx).array().floor();
     return openvdb::Coord(static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
   };
   NodeMasks cells;

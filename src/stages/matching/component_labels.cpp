@@ -22,8 +22,8 @@ constexpr int kReach = 4;
 
 constexpr int kCellsPerLeaf = 8;
 
-/// A component of about eight particles has as many triangles, where cells are half as large as r.
-constexpr std::size_t kLargestSpeck = 200;
+/// A component of eight particles has more triangles, where cells are half as large as r.
+constexpr std::size_t kLargestSpeck = 150;
 
 /// The components of φ = 0: 0 is the largest, the others count from 1 by their lowest vertex.
 struct NumberedComponents {

@@ -8,7 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "matching_region.h"
+#include "near_blocks.h"
 #include "node_numbers.h"
 #include "triangle_extent.h"
 
@@ -16,7 +16,7 @@ namespace particle_surface_tracker {
 
 namespace {
 
-constexpr int kWidth = 8;
+constexpr int kWidth = NearBlocks::kWidth;
 
 openvdb::Vec3d to_openvdb(const Vec3f& v) {
   return {v.x(), v.y(), v.z()};
@@ -32,38 +32,6 @@ openvdb::CoordBBox nodes_around(const std::array<openvdb::Vec3d, 3>& corners, do
   }
   return box;
 }
-
-/// Where a set has nodes, in blocks of 8³ nodes: most triangles are nowhere near.
-class NearBlocks {
- public:
-  explicit NearBlocks(const NodeMasks& set, double h) : blocks_per_meter_(1.0 / (kWidth * h)) {
-    for (const NodeMasks::Leaf& leaf : set.leaves()) {
-      if (!is_zero(leaf.words)) blocks_.insert(block_of_leaf(leaf.origin));
-    }
-    blocks_.dilate(1, 1);
-  }
-
-  /// False if no node of the set is within the width of a block of a position.
-  bool may_be_near(const Vec3f& position) const {
-    const Vec3d place = position.cast<double>() * blocks_per_meter_;
-    const openvdb::Coord block(floor_of(place.x()), floor_of(place.y()), floor_of(place.z()));
-    return contains(blocks_, block);
-  }
-
- private:
-  static openvdb::Coord block_of_leaf(const openvdb::Coord& origin) {
-    return {origin.x() >> 3, origin.y() >> 3, origin.z() >> 3};
-  }
-
-  /// std::floor is a function call on plain x86-64.
-  static int floor_of(double x) {
-    const int truncated = static_cast<int>(x);
-    return truncated - (x < truncated ? 1 : 0);
-  }
-
-  double blocks_per_meter_;
-  NodeMasks blocks_;
-};
 
 /// Calls visit(node) for the nodes of a set in a box.
 template <typename Visit>

@@ -43,15 +43,6 @@ NodeMasks misplaced_nodes(const NodesAtIsosurface& nodes, const LineSigns& mesh)
   return misplaced;
 }
 
-/// Takes the nodes of one set out of another.
-void remove_nodes(NodeMasks& set, const NodeMasks& removed) {
-  for (const NodeMasks::Leaf& leaf : removed.leaves()) {
-    if (set.find(leaf.origin) == LeafIndex::none) continue;
-    LeafWords& words = set.words_at(leaf.origin);
-    for (int x = 0; x < 8; ++x) words[x] &= ~leaf.words[x];
-  }
-}
-
 /// Takes the nodes out that are on the same side for the mesh and for φ, whose lattices are one.
 void remove_agreeing(NodeMasks& set, const LineSigns& mesh, const LineSigns& field) {
   for (const NodeMasks::Leaf& leaf : set.leaves()) {
@@ -60,11 +51,6 @@ void remove_agreeing(NodeMasks& set, const LineSigns& mesh, const LineSigns& fie
     LeafWords& words = set.words_at(leaf.origin);
     for (int x = 0; x < 8; ++x) words[x] &= in_mesh[x] ^ in_field[x];
   }
-}
-
-bool is_empty(const NodeMasks& set) {
-  return std::all_of(set.leaves().begin(), set.leaves().end(),
-                     [](const NodeMasks::Leaf& leaf) { return is_zero(leaf.words); });
 }
 
 /// Nodes at the isosurface that are on the wrong side of the mesh, and too far from it.
@@ -85,7 +71,7 @@ struct NodesAwayFromVertices {
 };
 
 NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const std::vector<float>& delta,
-                                               const ImplicitSurface& surface, const LineSigns& mesh) {
+                                               const IsosurfaceQuery& isosurface, const LineSigns& mesh) {
   const double longest = kLargeEdge * lattice.h();
   std::vector<char> is_large(lattice.triangles().size(), 0);
   bool any = false;
@@ -110,7 +96,7 @@ NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const
   };
   for_each_end([&](const openvdb::Coord& node, std::uint32_t) { set.insert(node); });
   remove_nodes(set, near_vertices);
-  if (lattice.h() == surface.dx) remove_agreeing(set, mesh, make_field_signs(surface));
+  if (lattice.h() == isosurface.surface().dx) remove_agreeing(set, mesh, isosurface.field().signs());
   const NodeNumbers numbers(set);
   NodesAwayFromVertices result{numbers.nodes(), std::vector<double>(numbers.nodes().size(), 0.0)};
   for_each_end([&](const openvdb::Coord& node, std::uint32_t triangle) {
@@ -123,12 +109,12 @@ NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const
 
 /// Nodes at the mesh that are on the wrong side of the isosurface, and too far from it.
 std::vector<openvdb::Coord> disagreement_at_mesh(const MeshLattice& lattice, const std::vector<float>& delta,
-                                                 const ImplicitSurface& surface, const LineSigns& mesh) {
-  const NodesAwayFromVertices suspects = nodes_away_from_vertices(lattice, delta, surface, mesh);
+                                                 const IsosurfaceQuery& isosurface, const LineSigns& mesh) {
+  const NodesAwayFromVertices suspects = nodes_away_from_vertices(lattice, delta, isosurface, mesh);
   if (suspects.nodes.empty()) return {};
   const double slack = kCell * lattice.h();
   const double reach = *std::max_element(suspects.detail.begin(), suspects.detail.end()) + 2.0 * slack;
-  const std::vector<float> phi = FieldAtNodes(surface, lattice.h()).distances(suspects.nodes, reach);
+  const std::vector<float> phi = isosurface.field().distances(suspects.nodes, reach);
   std::vector<openvdb::Coord> nodes;
   for (std::size_t n = 0; n < phi.size(); ++n) {
     if (std::abs(static_cast<double>(phi[n])) <= suspects.detail[n] + slack) continue;
@@ -148,12 +134,12 @@ std::vector<openvdb::Coord> cells_around(const std::vector<openvdb::Coord>& node
 }  // namespace
 
 Disagreement find_disagreement(const MeshLattice& lattice, const std::vector<float>& delta,
-                               const ImplicitSurface& surface, const Parameters& parameters) {
+                               const IsosurfaceQuery& isosurface, const Parameters& parameters) {
   if (parameters.detection == DetectionMethod::kTau) return {};
   Disagreement result;
   const LineSigns mesh = make_mesh_signs(lattice);
-  result.nodes = disagreement_at_isosurface(lattice, delta, surface, mesh);
-  const std::vector<openvdb::Coord> at_mesh = disagreement_at_mesh(lattice, delta, surface, mesh);
+  result.nodes = disagreement_at_isosurface(lattice, delta, isosurface.surface(), mesh);
+  const std::vector<openvdb::Coord> at_mesh = disagreement_at_mesh(lattice, delta, isosurface, mesh);
   result.nodes.insert(result.nodes.end(), at_mesh.begin(), at_mesh.end());
   std::sort(result.nodes.begin(), result.nodes.end());
   result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());

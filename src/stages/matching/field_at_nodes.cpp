@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "lattice_weights.h"
+#include "node_numbers.h"
 #include "stages/distance_field/band_distances.h"
 
 namespace particle_surface_tracker {
@@ -47,6 +48,25 @@ NodeMasks nodes_needed(const std::vector<openvdb::Coord>& nodes, double ratio) {
 
 FieldAtNodes::FieldAtNodes(const ImplicitSurface& surface, double h)
     : surface_(surface), h_(h), signs_(make_field_signs(surface)), cells_(surface) {}
+
+NodeMasks FieldAtNodes::liquid(const NodeMasks& set) const {
+  NodeMasks found(set.leaves().size());
+  if (h_ == surface_.dx) {
+    for (const NodeMasks::Leaf& leaf : set.leaves()) {
+      if (is_zero(leaf.words)) continue;
+      const LeafWords inside = signs_.leaf(leaf.origin).inside;
+      LeafWords& words = found.words_at(leaf.origin);
+      for (int x = 0; x < 8; ++x) words[x] = leaf.words[x] & inside[x];
+    }
+    return found;
+  }
+  const std::vector<openvdb::Coord> nodes = NodeNumbers(set).nodes();
+  const std::vector<float> phi = distances(nodes, h_);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (phi[n] < 0.0F) found.insert(nodes[n]);
+  }
+  return found;
+}
 
 std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& nodes, double reach) const {
   const double ratio = h_ / surface_.dx;

@@ -19,6 +19,12 @@ class FieldAtNodes {
   /// \param h Δx_Γ [m].
   FieldAtNodes(const ImplicitSurface& surface, double h);
 
+  /// The sides of φ's own nodes.
+  const LineSigns& signs() const { return signs_; }
+
+  /// The nodes of a set where φ < 0.
+  NodeMasks liquid(const NodeMasks& set) const;
+
   /// \param reach beyond this φ is ±reach [m].
   /// \return φ [m], one per node.
   std::vector<float> distances(const std::vector<openvdb::Coord>& nodes, double reach) const;

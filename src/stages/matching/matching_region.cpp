@@ -1,5 +1,6 @@
 #include "matching_region.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace particle_surface_tracker {
@@ -28,6 +29,19 @@ void unite(NodeMasks& set, const NodeMasks& other) {
     LeafWords& words = set.words_at(leaf.origin);
     for (int x = 0; x < 8; ++x) words[x] |= leaf.words[x];
   }
+}
+
+void remove_nodes(NodeMasks& set, const NodeMasks& removed) {
+  for (const NodeMasks::Leaf& leaf : removed.leaves()) {
+    if (set.find(leaf.origin) == LeafIndex::none) continue;
+    LeafWords& words = set.words_at(leaf.origin);
+    for (int x = 0; x < 8; ++x) words[x] &= ~leaf.words[x];
+  }
+}
+
+bool is_empty(const NodeMasks& set) {
+  return std::all_of(set.leaves().begin(), set.leaves().end(),
+                     [](const NodeMasks::Leaf& leaf) { return is_zero(leaf.words); });
 }
 
 NodeMasks nodes_next_to_other_side(const NodeMasks& set, const LineSigns& signs) {

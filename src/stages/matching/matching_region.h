@@ -15,6 +15,12 @@ NodeMasks nodes_at_cells(const std::vector<openvdb::Coord>& cells);
 /// Adds the nodes of one set to another.
 void unite(NodeMasks& set, const NodeMasks& other);
 
+/// Takes the nodes of one set out of another.
+void remove_nodes(NodeMasks& set, const NodeMasks& removed);
+
+/// True if a set has no node.
+bool is_empty(const NodeMasks& set);
+
 /// The nodes of a set that have a node of the other side among their 26 neighbours, in it or not.
 NodeMasks nodes_next_to_other_side(const NodeMasks& set, const LineSigns& signs);
 

@@ -36,14 +36,15 @@ constexpr double kLargestDomain = 1 << 28;
 /// Rounds of solving in a region that grows.
 class TopologyMatching {
  public:
-  TopologyMatching(const MeshLattice& lattice, const ImplicitSurface& surface, const NodeMasks& flagged,
-                   const Parameters& parameters)
+  TopologyMatching(const MeshLattice& lattice, const FieldAtNodes& field, const NodeMasks& flagged,
+                   const NodeMasks& follows_phi, const Parameters& parameters)
       : lattice_(lattice),
         flagged_(flagged),
+        follows_phi_(follows_phi),
         parameters_(parameters),
         diagonal_(std::sqrt(3.0) * lattice.h()),
         mesh_signs_(make_mesh_signs(lattice)),
-        field_(surface, lattice.h()) {}
+        field_(field) {}
 
   /// \param reach by which the region grows where it is too small [nodes]; 0: never.
   MatchedVoxelization run(NodeMasks region, int reach) {
@@ -99,13 +100,15 @@ class TopologyMatching {
     return std::min(largest + diagonal_, farthest);
   }
 
-  /// Γ = ψ + φ at the unknowns.
+  /// Γ = ψ + φ at the unknowns; at those that are to have the side of φ, without what takes Γ towards the other one.
   void take_over(const NodeMasks& unknown, const MatchingProblem& problem, double reach) {
     result_.nodes = problem.unknowns.nodes();
     const std::vector<float> phi = field_.distances(result_.nodes, reach);
     result_.gamma.resize(phi.size());
     for (std::size_t n = 0; n < phi.size(); ++n) {
-      result_.gamma[n] = static_cast<float>(problem.poisson.values[n] + static_cast<double>(phi[n]));
+      double psi = problem.poisson.values[n];
+      if (follows_phi_.contains(result_.nodes[n])) psi = phi[n] < 0.0F ? std::min(psi, 0.0) : std::max(psi, 0.0);
+      result_.gamma[n] = static_cast<float>(psi + static_cast<double>(phi[n]));
     }
     std::vector<char> has_changed(phi.size(), 0);
     for (const NodeMasks::Leaf& leaf : unknown.leaves()) {
@@ -125,10 +128,11 @@ class TopologyMatching {
 
   const MeshLattice& lattice_;
   const NodeMasks& flagged_;
+  const NodeMasks& follows_phi_;
   const Parameters& parameters_;
   double diagonal_;
   LineSigns mesh_signs_;
-  FieldAtNodes field_;
+  const FieldAtNodes& field_;
   MatchedVoxelization result_;
 };
 
@@ -157,21 +161,26 @@ NodeMasks whole_domain(const NodeMasks& surfaces) {
 
 }  // namespace
 
-MatchedVoxelization match_topology(const MeshLattice& lattice, const ImplicitSurface& surface,
-                                   const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters) {
+MatchedVoxelization match_topology(const MeshLattice& lattice, const IsosurfaceQuery& isosurface,
+                                   const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters,
+                                   const std::vector<openvdb::Coord>& at_conflicts) {
   const bool everywhere = parameters.matching_frames == MatchingFrames::kEvery;
-  if (flagged_cells.empty() && !everywhere) return {};
-  const NodeMasks flagged = nodes_at_cells(flagged_cells);
+  if (flagged_cells.empty() && at_conflicts.empty() && !everywhere) return {};
+  NodeMasks follows_phi;
+  for (const openvdb::Coord& node : at_conflicts) follows_phi.insert(node);
+  NodeMasks flagged = nodes_at_cells(flagged_cells);
+  unite(flagged, follows_phi);
   const int reach =
       static_cast<int>(std::ceil(parameters.matching_reach * parameters.particle_spacing / lattice.h() - 1e-9));
   NodeMasks region = flagged;
-  if (everywhere || reach == 0) unite(region, nodes_at_surfaces(lattice, surface));
+  if (everywhere || reach == 0) unite(region, nodes_at_surfaces(lattice, isosurface.surface()));
   if (reach == 0) {
     region = whole_domain(region);
   } else {
     region.dilate(reach, reach);
   }
-  MatchedVoxelization matched = TopologyMatching(lattice, surface, flagged, parameters).run(std::move(region), reach);
+  TopologyMatching matching(lattice, isosurface.field(), flagged, follows_phi, parameters);
+  MatchedVoxelization matched = matching.run(std::move(region), reach);
   for (const NodeMasks::Leaf& leaf : flagged.leaves()) {
     for (int x = 0; x < 8; ++x) {
       matched.statistics.flagged_nodes += static_cast<std::size_t>(__builtin_popcountll(leaf.words[x]));

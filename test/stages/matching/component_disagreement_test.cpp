@@ -17,6 +17,7 @@ namespace particle_surface_tracker {
 namespace {
 
 constexpr double kSpacing = 0.1;
+constexpr double kH = 0.05;
 
 Parameters parameters() {
   Parameters parameters;
@@ -63,8 +64,9 @@ TriangleMesh body_with_scrap(const Vec3d& place, std::uint32_t& first_new_id) {
 TEST(ComponentDisagreement, FlagsAMeshThatHoldsTwoBodiesTogether) {
   const TriangleMesh mesh = stretched_ellipsoid();
   const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
+  const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
   const std::vector<openvdb::Coord> cells =
-      find_component_disagreement(mesh, count, surface_of_balls({-0.65, 0.65}), parameters());
+      find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), parameters()).bridge_cells;
   ASSERT_FALSE(cells.empty());
   EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
   // The bodies are 0.3 apart; cells are 0.05 wide.
@@ -75,24 +77,27 @@ TEST(ComponentDisagreement, LeavesWhatItWasBornWithAlone) {
   const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
   TriangleMesh mesh = stretched_ellipsoid();
   const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
-  note_bridges(mesh, surface);
-  EXPECT_TRUE(find_component_disagreement(mesh, count, surface, parameters()).empty());
+  note_bridges(mesh, IsosurfaceQuery(surface, kH));
+  EXPECT_TRUE(find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), parameters()).none());
 
   std::uint32_t first_new_id = 0;
   const TriangleMesh with_scrap = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
   const auto all = static_cast<std::uint32_t>(with_scrap.vertex_count());
-  EXPECT_TRUE(find_component_disagreement(with_scrap, all, surface_of_balls({0.0}), parameters()).empty());
+  const ImplicitSurface one = surface_of_balls({0.0});
+  EXPECT_TRUE(find_component_disagreement(with_scrap, all, IsosurfaceQuery(one, kH), parameters()).none());
 }
 
 TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
   std::uint32_t first_new_id = 0;
   const TriangleMesh mesh = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
+  const ImplicitSurface one = surface_of_balls({0.0});
   const std::vector<openvdb::Coord> cells =
-      find_component_disagreement(mesh, first_new_id, surface_of_balls({0.0}), parameters());
+      find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(one, kH), parameters()).scrap_cells;
   ASSERT_FALSE(cells.empty());
   for (const openvdb::Coord& cell : cells) EXPECT_GT(cell.x() * 0.05, 0.7) << cell;
   // With liquid of its own it is no scrap.
-  EXPECT_TRUE(find_component_disagreement(mesh, first_new_id, surface_of_balls({0.0, 1.3}), parameters()).empty());
+  const ImplicitSurface two = surface_of_balls({0.0, 1.3});
+  EXPECT_TRUE(find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(two, kH), parameters()).none());
 }
 
 TEST(ComponentDisagreement, CanBeTurnedOff) {
@@ -100,7 +105,8 @@ TEST(ComponentDisagreement, CanBeTurnedOff) {
   only_tau.detection = DetectionMethod::kTau;
   const TriangleMesh mesh = stretched_ellipsoid();
   const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
-  EXPECT_TRUE(find_component_disagreement(mesh, count, surface_of_balls({-0.65, 0.65}), only_tau).empty());
+  const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
+  EXPECT_TRUE(find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), only_tau).none());
 }
 
 }  // namespace

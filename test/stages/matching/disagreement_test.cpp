@@ -21,7 +21,8 @@ const Body kBody = ball({0.02, 0.01, 0.03}, 0.9);
 Disagreement find(const TriangleMesh& mesh, const Body& body, double delta = 0.0, double dx = kH) {
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
   const std::vector<float> deltas(mesh.vertex_count(), static_cast<float>(delta));
-  return find_disagreement(lattice, deltas, make_surface(body, dx), make_parameters());
+  const ImplicitSurface surface = make_surface(body, dx);
+  return find_disagreement(lattice, deltas, IsosurfaceQuery(surface, lattice.h()), make_parameters());
 }
 
 /// All nodes of the disagreement are on the inner side of a body, or just outside, and there are some.
@@ -97,7 +98,8 @@ TEST(Disagreement, IsOffWhereOnlyTauCounts) {
   parameters.detection = DetectionMethod::kTau;
   const TriangleMesh none;
   const MeshLattice lattice(none.positions(), none.triangles(), kH);
-  EXPECT_TRUE(find_disagreement(lattice, {}, make_surface(kBody), parameters).nodes.empty());
+  const ImplicitSurface surface = make_surface(kBody);
+  EXPECT_TRUE(find_disagreement(lattice, {}, IsosurfaceQuery(surface, kH), parameters).nodes.empty());
 }
 
 TEST(Disagreement, IsTheSameForAnyNumberOfThreads) {
@@ -130,7 +132,8 @@ TEST(Disagreement, ARigidMotionOfADetailedBodyFlagsNothing) {
     EXPECT_TRUE(tracker.detection().flagged_cells.empty());
     const TriangleMesh& mesh = tracker.mesh();
     const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
-    const Disagreement found = find_disagreement(lattice, mesh.delta(), *tracker.implicit_surface(), parameters);
+    const IsosurfaceQuery isosurface(*tracker.implicit_surface(), lattice.h());
+    const Disagreement found = find_disagreement(lattice, mesh.delta(), isosurface, parameters);
     EXPECT_TRUE(found.nodes.empty()) << "frame " << n << ": " << found.nodes.size() << " nodes";
   }
 }

@@ -1,0 +1,112 @@
+#include "uncovered_particles.h"
+
+#include <atomic>
+#include <cmath>
+
+#include <openvdb/math/Proximity.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "near_blocks.h"
+#include "particle_surface_tracker/core/particle_grid.h"
+#include "triangle_extent.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+openvdb::Coord cell_at(const Vec3f& position, double h) {
+  const Vec3d cell = (position.cast<double>() / h).array().floor();
+  return {static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z())};
+}
+
+openvdb::Vec3d to_openvdb(const Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// The particles whose cell has no corner inside, and their cells.
+struct Candidates {
+  std::vector<std::uint32_t> indices;
+  std::vector<Vec3f> positions;
+  NodeMasks cells;
+};
+
+Candidates find_candidates(const std::vector<Vec3f>& particles, const LineSigns& before,
+                           const MatchedVoxelization& matched, double h) {
+  NodeMasks cells;
+  for (const Vec3f& particle : particles) cells.insert(cell_at(particle, h));
+  cells.dilate(0, 1);
+  NodeMasks held = inside_by_gamma(cells, before, matched);
+  held.dilate(1, 0);
+  Candidates candidates;
+  for (std::uint32_t p = 0; p < particles.size(); ++p) {
+    const openvdb::Coord cell = cell_at(particles[p], h);
+    if (held.contains(cell)) continue;
+    candidates.indices.push_back(p);
+    candidates.positions.push_back(particles[p]);
+    candidates.cells.insert(cell);
+  }
+  return candidates;
+}
+
+}  // namespace
+
+NodeMasks inside_by_gamma(const NodeMasks& set, const LineSigns& mesh, const MatchedVoxelization& matched) {
+  NodeMasks inside(set.leaves().size());
+  for (const NodeMasks::Leaf& leaf : set.leaves()) {
+    if (is_zero(leaf.words)) continue;
+    const LeafWords in_mesh = mesh.leaf(leaf.origin).inside;
+    LeafWords& words = inside.words_at(leaf.origin);
+    for (int x = 0; x < 8; ++x) words[x] = leaf.words[x] & in_mesh[x];
+  }
+  for (std::size_t n = 0; n < matched.nodes.size(); ++n) {
+    const openvdb::Coord& node = matched.nodes[n];
+    if (!set.contains(node)) continue;
+    const std::uint64_t bit = std::uint64_t{1} << (8 * (node.y() & 7) + (node.z() & 7));
+    std::uint64_t& word = inside.words_at(node & ~7)[node.x() & 7];
+    word = matched.gamma[n] < 0.0F ? word | bit : word & ~bit;
+  }
+  return inside;
+}
+
+std::vector<std::uint32_t> find_uncovered_particles(const std::vector<Vec3f>& particles, const LineSigns& before,
+                                                    const MatchedVoxelization& matched, const TriangleMesh& mesh,
+                                                    double h, double reach) {
+  const Candidates candidates = find_candidates(particles, before, matched, h);
+  if (candidates.indices.empty()) return {};
+  const ParticleGrid grid(candidates.positions, reach);
+  const NearBlocks blocks(candidates.cells, h);
+  // Threads only ever set a mark, so their order does not matter.
+  std::vector<std::atomic<char>> is_covered(candidates.indices.size());
+  const auto cover = [&](const Triangle& t) {
+    const std::vector<Vec3f>& positions = mesh.positions();
+    if (reach + longest_edge(positions, t) < NearBlocks::kWidth * h && !blocks.may_be_near(positions[t[0]])) return;
+    const Vec3f lower = positions[t[0]].cwiseMin(positions[t[1]]).cwiseMin(positions[t[2]]);
+    const Vec3f upper = positions[t[0]].cwiseMax(positions[t[1]]).cwiseMax(positions[t[2]]);
+    const Vec3d margin = Vec3d::Constant(reach);
+    grid.for_each_range(grid.cell_of(lower.cast<double>() - margin), grid.cell_of(upper.cast<double>() + margin),
+                        [&](std::uint32_t begin, std::uint32_t end) {
+                          for (std::uint32_t n = begin; n < end; ++n) {
+                            const std::uint32_t candidate = grid.index()[n];
+                            const openvdb::Vec3d place = to_openvdb(candidates.positions[candidate]);
+                            openvdb::Vec3d unused;
+                            const openvdb::Vec3d closest = openvdb::math::closestPointOnTriangleToPoint(
+                                to_openvdb(positions[t[0]]), to_openvdb(positions[t[1]]), to_openvdb(positions[t[2]]),
+                                place, unused);
+                            if ((closest - place).lengthSqr() <= reach * reach) {
+                              is_covered[candidate].store(1, std::memory_order_relaxed);
+                            }
+                          }
+                        });
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangle_count(), 1024), [&](const auto& range) {
+    for (std::size_t t = range.begin(); t != range.end(); ++t) cover(mesh.triangles()[t]);
+  });
+  std::vector<std::uint32_t> uncovered;
+  for (std::size_t n = 0; n < candidates.indices.size(); ++n) {
+    if (is_covered[n].load(std::memory_order_relaxed) == 0) uncovered.push_back(candidates.indices[n]);
+  }
+  return uncovered;
+}
+
+}  // namespace particle_surface_tracker
