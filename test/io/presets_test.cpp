@@ -44,7 +44,7 @@ TEST(Presets, EveryFileIsValid) {
 TEST(Presets, ChangeWhatTheySay) {
   const std::filesystem::path config(PST_CONFIG);
   EXPECT_EQ(changed_by(config / "default.yaml"), std::set<std::string>());
-  EXPECT_EQ(changed_by(config / "viscous.yaml"), std::set<std::string>({"stretched_detail"}));
+  EXPECT_EQ(changed_by(config / "viscous.yaml"), std::set<std::string>({"detection", "stretched_detail"}));
   EXPECT_EQ(changed_by(config / "splash.yaml"), std::set<std::string>({"delta_half_life"}));
   EXPECT_EQ(changed_by(config / "preview.yaml"),
             std::set<std::string>({"dx_phi", "influence_radius", "dx_gamma", "epsilon", "projection_tolerance"}));
