@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/io/gltf_writer.h"
 #include "particle_surface_tracker/io/mesh_writer.h"
+#include "particle_surface_tracker/io/vtp_writer.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -28,6 +30,21 @@ void try_writing(const std::filesystem::path& folder) {
     throw OutputError(fmt::format("cannot write in folder '{}': {}", folder.string(), std::strerror(reason)));
 }
 
+const char* extension_of(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kObj:
+      return "obj";
+    case MeshFormat::kVtp:
+      return "vtp";
+    case MeshFormat::kGlb:
+      return "glb";
+    case MeshFormat::kPly:
+    case MeshFormat::kNone:
+      break;
+  }
+  return "ply";
+}
+
 }  // namespace
 
 MeshSequence::MeshSequence(std::string folder, MeshFormat format) : folder_(std::move(folder)), format_(format) {
@@ -39,8 +56,7 @@ MeshSequence::MeshSequence(std::string folder, MeshFormat format) : folder_(std:
 }
 
 std::string MeshSequence::path(std::uint64_t frame) const {
-  const char* extension = format_ == MeshFormat::kObj ? "obj" : "ply";
-  return (std::filesystem::path(folder_) / fmt::format("frame_{:06}.{}", frame, extension)).string();
+  return (std::filesystem::path(folder_) / fmt::format("frame_{:06}.{}", frame, extension_of(format_))).string();
 }
 
 void MeshSequence::write(const TriangleMesh& mesh, std::uint64_t frame) const {
@@ -50,6 +66,12 @@ void MeshSequence::write(const TriangleMesh& mesh, std::uint64_t frame) const {
       break;
     case MeshFormat::kObj:
       write_obj(path(frame), mesh);
+      break;
+    case MeshFormat::kVtp:
+      write_vtp(path(frame), mesh);
+      break;
+    case MeshFormat::kGlb:
+      write_glb(path(frame), mesh);
       break;
     case MeshFormat::kNone:
       break;

@@ -1,7 +1,6 @@
 #include "particle_surface_tracker/io/mesh_writer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "color_bytes.h"
 #include "file_bytes.h"
 
 // No Debian library writes binary PLY with vertex properties of any name, so the few lines that it takes are here.
@@ -85,11 +85,6 @@ class ByteSink {
  private:
   char* at_;
 };
-
-/// NaN becomes 0.
-std::uint8_t color_byte(float value) {
-  return value > 0.0F ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0F) * 255.0F)) : std::uint8_t{0};
-}
 
 /// The values of an attribute that OBJ has a place for; none if there is no such attribute of that many components.
 const float* find_values(const VertexAttributes& attributes, const char* name, std::size_t components) {

@@ -1,8 +1,12 @@
 // export_meshes: writes the tracked meshes of a bag as a sequence of files.
 
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <particle_surface_tracker/TrackedMesh.h>
@@ -12,6 +16,7 @@
 
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_sequence.h"
+#include "particle_surface_tracker/io/vtp_writer.h"
 #include "particle_surface_tracker/ros/mesh_conversion.h"
 #include "particle_surface_tracker/ros/tracking_bag_writer.h"
 
@@ -25,34 +30,58 @@ struct Options {
   std::string bag;
   std::string topic = TrackingBagWriter::mesh_topic;
   std::string out;
+  MeshFormat format = MeshFormat::kPly;
+  std::uint64_t first = 0;
+  std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
 };
 
-TriangleMesh mesh_in(const rosbag::MessageInstance& message) {
-  const auto mesh = message.instantiate<TrackedMesh>();
-  if (!mesh) {
-    throw InputError(fmt::format("it is of type {}, or of another version of {}", message.getDataType(),
+const std::map<std::string, MeshFormat> kFormats{
+    {"ply", MeshFormat::kPly}, {"obj", MeshFormat::kObj}, {"vtp", MeshFormat::kVtp}, {"glb", MeshFormat::kGlb}};
+
+TrackedMesh message_in(const rosbag::MessageInstance& instance) {
+  const auto message = instance.instantiate<TrackedMesh>();
+  if (!message) {
+    throw InputError(fmt::format("it is of type {}, or of another version of {}", instance.getDataType(),
                                  ros::message_traits::datatype<TrackedMesh>()));
   }
-  return to_triangle_mesh(*mesh);
+  return *message;
 }
 
-std::uint64_t export_meshes(const Options& options) {
+/// Time and file of every mesh that was written.
+std::vector<TimedFile> write_meshes(const Options& options) {
   const rosbag::Bag bag(options.bag);
   rosbag::View view(bag, rosbag::TopicQuery(options.topic));
-  if (view.size() == 0) throw InputError(fmt::format("it holds no messages of topic {}", options.topic));
-  const MeshSequence sequence(options.out, MeshFormat::kPly);
+  if (view.size() <= options.first) {
+    throw InputError(fmt::format("it holds {} messages of topic {}, the first to export is {}", view.size(),
+                                 options.topic, options.first));
+  }
+  const MeshSequence sequence(options.out, options.format);
+  std::vector<TimedFile> written;
   std::uint64_t count = 0;
-  for (const rosbag::MessageInstance& message : view) {
+  for (const rosbag::MessageInstance& instance : view) {
+    const std::uint64_t index = count++;
+    if (index < options.first || index > options.last) continue;
     try {
-      sequence.write(mesh_in(message), count);
+      const TrackedMesh message = message_in(instance);
+      sequence.write(to_triangle_mesh(message), index);
+      const ros::Time& stamp = message.header.stamp;
+      written.push_back({fmt::format("{}.{:09}", stamp.sec, stamp.nsec),
+                         std::filesystem::path(sequence.path(index)).filename().string()});
     } catch (const OutputError&) {
       throw;
     } catch (const Error& error) {
-      throw InputError(fmt::format("message {} of topic {}: {}", count, options.topic, error.what()));
+      throw InputError(fmt::format("message {} of topic {}: {}", index, options.topic, error.what()));
     }
-    ++count;
   }
-  return count;
+  return written;
+}
+
+void export_meshes(const Options& options) {
+  const std::vector<TimedFile> written = write_meshes(options);
+  if (options.format == MeshFormat::kVtp) {
+    write_pvd((std::filesystem::path(options.out) / "frames.pvd").string(), written);
+  }
+  std::cout << fmt::format("{}: {} meshes\n", options.out, written.size());
 }
 
 ExitCode fail(ExitCode code, const std::string& text) {
@@ -64,18 +93,30 @@ ExitCode fail(ExitCode code, const std::string& text) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Writes the tracked meshes of a bag as PLY files, numbered from 0 in the order of the messages.",
+  CLI::App app("Writes the tracked meshes of a bag as files, numbered from 0 in the order of the messages.",
                "export_meshes");
   app.add_option("--bag", options.bag, "a recorded bag, or what track_bag --out-bag writes")->required();
   app.add_option("--topic", options.topic, "topic of the meshes")->capture_default_str();
   app.add_option("--out", options.out, "folder for the files; made if it is not there")->required();
+  app.add_option(
+         "--format", options.format,
+         "ply: all attributes; obj; vtp: all attributes, and a time series frames.pvd for ParaView; glb: binary "
+         "glTF 2.0 (default: ply)")
+      ->transform(CLI::CheckedTransformer(kFormats).description("ply|obj|vtp|glb"));
+  app.add_option("--first", options.first, "first message to export, counted from 0")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--last", options.last, "last message to export (default: all)")->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
+    if (options.last < options.first) {
+      throw CLI::ValidationError("--last", fmt::format("is {}, before --first {}", options.last, options.first));
+    }
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
   try {
-    std::cout << fmt::format("{}: {} meshes\n", options.out, export_meshes(options));
+    export_meshes(options);
   } catch (const OutputError& error) {
     return fail(kOutput, error.what());
   } catch (const std::exception& error) {

@@ -12,6 +12,7 @@
 #include "particle_surface_tracker/core/frame_check.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "particle_surface_tracker/io/report_writer.h"
+#include "particle_surface_tracker/io/vdb_sequence.h"
 #include "particle_surface_tracker/ros/frame_handler.h"
 #include "particle_surface_tracker/ros/particle_bag.h"
 #include "particle_surface_tracker/ros/tracking_bag_writer.h"
@@ -69,6 +70,7 @@ class OfflineRun {
   void open_outputs() {
     meshes_.emplace(options_.out, options_.format);
     if (!options_.surface.empty()) surfaces_.emplace(options_.surface, MeshFormat::kPly);
+    if (!options_.vdb.empty()) fields_.emplace(options_.vdb);
     if (!options_.report.empty()) report_.emplace(options_.report);
     if (options_.out_bag.empty()) return;
     std::error_code not_there;
@@ -138,6 +140,7 @@ class OfflineRun {
       const SurfaceTriangulation& surface = handler_->tracker().implicit_surface()->triangulation;
       surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame);
     }
+    if (fields_) fields_->write(*handler_->tracker().implicit_surface(), frame);
     if (out_bag_) out_bag_->write(cloud, handler_->message());
     if (report_) report_->write(report);
   }
@@ -174,6 +177,7 @@ class OfflineRun {
   std::uint64_t last_ = 0;
   std::optional<MeshSequence> meshes_;
   std::optional<MeshSequence> surfaces_;
+  std::optional<VdbSequence> fields_;
   std::optional<ReportWriter> report_;
   std::optional<TrackingBagWriter> out_bag_;
   std::optional<FrameHandler> handler_;

@@ -70,6 +70,8 @@ void add_outputs(CLI::App& app, OfflineOptions& options) {
       ->transform(CLI::Transformer(formats).description(""));
   app.add_option("--surface", options.surface, "Folder for the implicit surface of every frame, as PLY")
       ->type_name("DIR");
+  app.add_option("--vdb", options.vdb, "Folder for the implicit function phi of every frame, as OpenVDB level set")
+      ->type_name("DIR");
   app.add_option("--out-bag", options.out_bag, "Bag of the particles and, in /tracked_mesh, the tracked meshes")
       ->type_name("FILE");
   app.add_option("--report", options.report, "File with one JSON object per frame and line")->type_name("FILE.jsonl");

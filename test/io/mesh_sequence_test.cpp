@@ -42,6 +42,12 @@ TEST_F(MeshSequences, FilesAreNamedAfterTheFrame) {
   const MeshSequence obj(folder_.string(), MeshFormat::kObj);
   obj.write(mesh_, 7);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "frame_000007.obj"));
+  const MeshSequence vtp(folder_.string(), MeshFormat::kVtp);
+  vtp.write(mesh_, 7);
+  EXPECT_EQ(start_of("frame_000007.vtp"), "<?x");
+  const MeshSequence glb(folder_.string(), MeshFormat::kGlb);
+  glb.write(mesh_, 7);
+  EXPECT_EQ(start_of("frame_000007.glb"), "glT");
 }
 
 TEST_F(MeshSequences, TryingTheFolderLeavesNothingBehind) {

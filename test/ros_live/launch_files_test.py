@@ -7,6 +7,7 @@ Usage: launch_files_test.py PROJECT
 
 import os
 import pathlib
+import shutil
 import sys
 import unittest
 import xml.etree.ElementTree as xml
@@ -41,7 +42,7 @@ def parameters(config):
 class LaunchFiles(unittest.TestCase):
     def test_there_are_some(self):
         names = {path.name for path in FILES}
-        self.assertTrue({"live.launch", "replay.launch"} <= names, names)
+        self.assertTrue({"live.launch", "replay.launch", "offline.launch", "live_splishsplash.launch"} <= names, names)
 
     def test_every_argument_is_described(self):
         for path in FILES:
@@ -57,7 +58,10 @@ class LaunchFiles(unittest.TestCase):
                 if node.package in VIEWERS and node.package not in pack.list():
                     continue
                 command = roslaunch.node_args.create_local_process_args(node, config.machines[""])
-                self.assertTrue(os.access(command[0], os.X_OK), "%s: %s" % (path.name, command[0]))
+                # With a launch-prefix that is not the first word.
+                program = next(word for word in command if os.path.basename(word) == node.type)
+                for word in (command[0], program):
+                    self.assertTrue(shutil.which(word), "%s: %s" % (path.name, word))
 
     def test_files_that_are_named_are_there(self):
         for path in FILES:
@@ -95,6 +99,26 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(parameters(config)["/tracker/queue_size"], 1000000)
         self.assertEqual(parameters(config)["/tracker/queue_policy"], "all")
         self.assertEqual({node.name for node in config.nodes}, {"tracker_manager", "tracker", "player"})
+
+    def test_offline_options_reach_track_bag(self):
+        config = load(PROJECT / "launch/offline.launch", "bag:=/data/a b.bag", "out:=/data/out", "options:=--first 3")
+        self.assertEqual([node.name for node in config.nodes], ["track_bag"])
+        words = roslaunch.node_args.create_local_process_args(config.nodes[0], config.machines[""])
+        for option in (["--bag", "/data/a b.bag"], ["--out", "/data/out"], ["--mesh", "implicit"], ["--first", "3"]):
+            self.assertEqual(words[words.index(option[0]):][:2], option)
+        for option in ("--config", "--report", "--out-bag"):
+            self.assertNotIn(option, words)
+
+    def test_splishsplash_runs_in_its_python(self):
+        config = load(PROJECT / "launch/live_splishsplash.launch", "python:=/opt/splish/bin/python", "scene:=/data/a.json",
+                      "frame:=tank", "frame_rate:=24")
+        values = parameters(config)
+        self.assertEqual((values["/simulator/scene"], values["/simulator/frame_rate"], values["/simulator/frame_id"]),
+                         ("/data/a.json", 24.0, "tank"))
+        self.assertEqual(values["/simulator/subscribers"], 2)  # Tracker and rviz
+        simulator = next(node for node in config.nodes if node.name == "simulator")
+        self.assertEqual(simulator.launch_prefix, "/opt/splish/bin/python")
+        self.assertIn(["status", "tracker/status"], [list(pair) for pair in simulator.remap_args])
 
     def test_scenes_with_y_up_are_turned(self):
         config = load(PROJECT / "launch/live.launch", "y_up:=true", "frame:=tank")

@@ -7,7 +7,7 @@
 
 namespace particle_surface_tracker {
 
-enum class MeshFormat { kPly, kObj, kNone };
+enum class MeshFormat { kPly, kObj, kVtp, kGlb, kNone };
 
 /// Writes the meshes of a sequence into one folder, one file per frame: `frame_000042.ply`.
 class MeshSequence {
@@ -20,7 +20,7 @@ class MeshSequence {
   /// Path of the file of a frame.
   std::string path(std::uint64_t frame) const;
 
-  /// \throw OutputError as write_ply() and write_obj().
+  /// \throw OutputError as write_ply(), write_obj(), write_vtp() and write_glb().
   void write(const TriangleMesh& mesh, std::uint64_t frame) const;
 
  private:

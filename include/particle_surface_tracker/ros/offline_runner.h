@@ -28,6 +28,7 @@ struct OfflineOptions {
   std::string out;  ///< Folder of the mesh sequence.
   MeshFormat format = MeshFormat::kPly;
   std::string surface;  ///< Folder for the implicit surfaces.
+  std::string vdb;      ///< Folder for φ.
   std::string out_bag;
   std::string report;
   bool quiet = false;     ///< Print errors only.

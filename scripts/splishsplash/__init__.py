@@ -1,0 +1,1 @@
+"""SPlisHSPlasH as a ROS node: its simulation, the parameters, and who listens."""
