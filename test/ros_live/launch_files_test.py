@@ -69,7 +69,9 @@ class LaunchFiles(unittest.TestCase):
 
     def test_arguments_reach_the_nodelet(self):
         config = load(PROJECT / "launch/live.launch", "mesh:=/data/a.ply", "spacing:=0.03", "config:=/data/p.yaml",
-                      "queue_size:=7", "queue_policy:=latest", "refine_initial:=true", "particles:=/flow/particles")
+                      "queue_size:=7", "queue_policy:=latest", "refine_initial:=true", "particles:=/flow/particles",
+                      "initial_mesh:=/flow/mesh", "interpolate:=velocity heat", "save_folder:=/data/out",
+                      "marker_color_by:=id")
         values = parameters(config)
         self.assertEqual(values["/tracker/mesh"], "/data/a.ply")
         self.assertEqual(values["/tracker/spacing"], "0.03")
@@ -77,9 +79,14 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(values["/tracker/queue_size"], 7)
         self.assertEqual(values["/tracker/queue_policy"], "latest")
         self.assertEqual(values["/tracker/refine_initial"], True)
+        self.assertEqual(values["/tracker/interpolate"], "velocity heat")
+        self.assertEqual(values["/tracker/save_folder"], "/data/out")
+        self.assertEqual(values["/tracker/marker_color_by"], "id")
         nodelet = next(node for node in config.nodes if node.name == "tracker")
         self.assertEqual(nodelet.args.split(), ["load", "particle_surface_tracker/TrackerNodelet", "tracker_manager"])
-        self.assertIn(["particles", "/flow/particles"], [list(pair) for pair in nodelet.remap_args])
+        remappings = [list(pair) for pair in nodelet.remap_args]
+        self.assertIn(["particles", "/flow/particles"], remappings)
+        self.assertIn(["initial_mesh", "/flow/mesh"], remappings)
 
     def test_a_manager_can_be_shared(self):
         config = load(PROJECT / "launch/live.launch", "manager:=simulation_manager", "rviz:=false")
