@@ -15,6 +15,7 @@ import roslaunch.config
 import roslaunch.node_args
 import roslaunch.xmlloader
 import rospkg
+import yaml
 
 PROJECT = pathlib.Path(sys.argv.pop())
 FILES = sorted(PROJECT.glob("launch/*.launch")) + sorted(PROJECT.glob("launch/*.launch.xml"))
@@ -109,6 +110,16 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(transform.args.split()[-2:], ["z_up", "tank"])
         viewer = next(node for node in config.nodes if node.name == "rviz")
         self.assertEqual(viewer.args.split()[-2:], ["-f", "z_up"])
+
+
+class RvizFiles(unittest.TestCase):
+    def test_all_that_the_tracker_shows_is_in_them(self):
+        for path in sorted(PROJECT.glob("rviz/*.rviz")):
+            displays = yaml.safe_load(path.read_text())["Visualization Manager"]["Displays"]
+            topics = {display["Marker Topic"]: display["Class"] for display in displays if "Marker Topic" in display}
+            self.assertEqual(topics.get("/tracker/marker"), "rviz/Marker", path.name)
+            self.assertEqual(topics.get("/tracker/surface_marker"), "rviz/Marker", path.name)
+            self.assertEqual(topics.get("/tracker/topology_marker"), "rviz/MarkerArray", path.name)
 
 
 if __name__ == "__main__":

@@ -22,8 +22,8 @@ struct Case {
   std::size_t wrong_bodies;  ///< In the last frame, where every frame is tracked: it may not be worse.
 };
 
-void PrintTo(const Case& tested, std::ostream* out) {
-  *out << tested.name;
+std::ostream& operator<<(std::ostream& out, const Case& tested) {
+  return out << tested.name;
 }
 
 class SkippedFrames : public testing::TestWithParam<Case> {};
