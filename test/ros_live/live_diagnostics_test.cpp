@@ -14,7 +14,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticArray;
 using diagnostic_msgs::DiagnosticStatus;
-using State = TrackerStatus;
 
 class LiveDiagnostics : public LiveNodeTest {
  protected:
