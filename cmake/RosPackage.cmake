@@ -4,11 +4,11 @@
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages)
 
 find_package(catkin REQUIRED COMPONENTS
-  dynamic_reconfigure message_generation nodelet pluginlib rosbag_storage roscpp roscpp_serialization roslz4 rostime
-  sensor_msgs std_msgs std_srvs
-  visualization_msgs)
+  diagnostic_msgs diagnostic_updater dynamic_reconfigure message_generation nodelet pluginlib rosbag_storage roscpp
+  roscpp_serialization roslz4 rostime sensor_msgs shape_msgs std_msgs std_srvs topic_tools visualization_msgs)
 
-add_message_files(FILES TrackedMesh.msg TrackerStatus.msg)
+add_message_files(FILES InterpolatedField.msg TrackedMesh.msg TrackerStatus.msg)
+add_service_files(FILES SaveMesh.srv)
 generate_messages(DEPENDENCIES std_msgs)
 generate_dynamic_reconfigure_options(cfg/Tracker.cfg)
 
@@ -20,8 +20,8 @@ set(PST_HEADERS_LIBRARIES ${PST_OPENVDB_LIBRARY} ${PST_TBB_LIBRARY})
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ${PROJECT_NAME} ${PROJECT_NAME}_ros ${PROJECT_NAME}_live
-  CATKIN_DEPENDS dynamic_reconfigure message_runtime nodelet rosbag_storage roscpp roslz4 sensor_msgs std_msgs std_srvs
-    visualization_msgs
+  CATKIN_DEPENDS diagnostic_updater dynamic_reconfigure message_runtime nodelet rosbag_storage roscpp roslz4 sensor_msgs
+    shape_msgs std_msgs std_srvs topic_tools visualization_msgs
   DEPENDS EIGEN3 PST_HEADERS)
 
 set(PST_LIB_DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "band.h"
+#include "long_step.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
@@ -153,7 +154,8 @@ struct Tracker::State {
       report.warnings.push_back("no particle of this frame was in the one before; the mesh is not advected");
       return;
     }
-    next.mesh.positions() = advect(next.mesh.positions(), motion, ParticleGrid(motion.positions, r()), parameters);
+    const int steps = steps_for(motion, elapsed, parameters);
+    next.mesh.positions() = advect_in_steps(next.mesh.positions(), motion, steps, parameters);
   }
 
   /// Projects the advected vertices and flags those that jump.

@@ -107,6 +107,29 @@ TEST(FrameQueue, CommandsGoFirst) {
   EXPECT_EQ(runs, 2);
 }
 
+TEST(FrameQueue, HeldFramesWaitAndCommandsRun) {
+  FrameQueue queue(2, QueuePolicy::kAll);
+  queue.hold(true);
+  queue.push(frame(0, Reception::kInvalid));
+  for (std::uint32_t n = 1; n < 4; ++n) queue.push(frame(n));
+  int runs = 0;
+  queue.push(FrameQueue::Command([&runs] { ++runs; }));
+  // What comes before all that waits is answered.
+  EXPECT_EQ(receptions(queue), std::vector<Reception>{Reception::kInvalid});
+  EXPECT_EQ(runs, 1);
+  EXPECT_EQ(queue.size(), 2u);
+  queue.hold(false);
+  const std::vector<Reception> wanted = {Reception::kUsable, Reception::kUsable, Reception::kDropped};
+  EXPECT_EQ(receptions(queue), wanted);
+}
+
+TEST(FrameQueue, StrictDropsWhatArrivesWhenItIsFull) {
+  FrameQueue queue(1, QueuePolicy::kStrict);
+  for (std::uint32_t n = 0; n < 3; ++n) queue.push(frame(n));
+  const std::vector<Reception> wanted = {Reception::kUsable, Reception::kDropped, Reception::kDropped};
+  EXPECT_EQ(receptions(queue), wanted);
+}
+
 TEST(FrameQueue, GivesUpWhenItsTimeIsOver) {
   FrameQueue queue(1, QueuePolicy::kAll);
   EXPECT_FALSE(queue.pop(now() + std::chrono::milliseconds(2)));

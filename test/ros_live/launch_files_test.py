@@ -16,6 +16,7 @@ import roslaunch.config
 import roslaunch.node_args
 import roslaunch.xmlloader
 import rospkg
+import yaml
 
 PROJECT = pathlib.Path(sys.argv.pop())
 FILES = sorted(PROJECT.glob("launch/*.launch")) + sorted(PROJECT.glob("launch/*.launch.xml"))
@@ -73,7 +74,9 @@ class LaunchFiles(unittest.TestCase):
 
     def test_arguments_reach_the_nodelet(self):
         config = load(PROJECT / "launch/live.launch", "mesh:=/data/a.ply", "spacing:=0.03", "config:=/data/p.yaml",
-                      "queue_size:=7", "queue_policy:=latest", "refine_initial:=true", "particles:=/flow/particles")
+                      "queue_size:=7", "queue_policy:=latest", "refine_initial:=true", "particles:=/flow/particles",
+                      "initial_mesh:=/flow/mesh", "interpolate:=velocity heat", "save_folder:=/data/out",
+                      "marker_color_by:=id")
         values = parameters(config)
         self.assertEqual(values["/tracker/mesh"], "/data/a.ply")
         self.assertEqual(values["/tracker/spacing"], "0.03")
@@ -81,9 +84,14 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(values["/tracker/queue_size"], 7)
         self.assertEqual(values["/tracker/queue_policy"], "latest")
         self.assertEqual(values["/tracker/refine_initial"], True)
+        self.assertEqual(values["/tracker/interpolate"], "velocity heat")
+        self.assertEqual(values["/tracker/save_folder"], "/data/out")
+        self.assertEqual(values["/tracker/marker_color_by"], "id")
         nodelet = next(node for node in config.nodes if node.name == "tracker")
         self.assertEqual(nodelet.args.split(), ["load", "particle_surface_tracker/TrackerNodelet", "tracker_manager"])
-        self.assertIn(["particles", "/flow/particles"], [list(pair) for pair in nodelet.remap_args])
+        remappings = [list(pair) for pair in nodelet.remap_args]
+        self.assertIn(["particles", "/flow/particles"], remappings)
+        self.assertIn(["initial_mesh", "/flow/mesh"], remappings)
 
     def test_a_manager_can_be_shared(self):
         config = load(PROJECT / "launch/live.launch", "manager:=simulation_manager", "rviz:=false")
@@ -126,6 +134,16 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(transform.args.split()[-2:], ["z_up", "tank"])
         viewer = next(node for node in config.nodes if node.name == "rviz")
         self.assertEqual(viewer.args.split()[-2:], ["-f", "z_up"])
+
+
+class RvizFiles(unittest.TestCase):
+    def test_all_that_the_tracker_shows_is_in_them(self):
+        for path in sorted(PROJECT.glob("rviz/*.rviz")):
+            displays = yaml.safe_load(path.read_text())["Visualization Manager"]["Displays"]
+            topics = {display["Marker Topic"]: display["Class"] for display in displays if "Marker Topic" in display}
+            self.assertEqual(topics.get("/tracker/marker"), "rviz/Marker", path.name)
+            self.assertEqual(topics.get("/tracker/surface_marker"), "rviz/Marker", path.name)
+            self.assertEqual(topics.get("/tracker/topology_marker"), "rviz/MarkerArray", path.name)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,8 @@ LiveNode::LiveNode(nodelet::Loader& manager, std::string name, const std::string
   ros::param::set(name_ + "/mesh", mesh);
   ros::param::set(name_ + "/spacing", kBallSpacing);
   for (const auto& [key, value] : parameters) ros::param::set(name_ + "/" + key, value);
-  const ros::M_string remappings = {{ros::names::resolve("particles"), input()}};
+  const ros::M_string remappings = {{ros::names::resolve("particles"), input()},
+                                    {ros::names::resolve("initial_mesh"), name_ + "/initial_mesh"}};
   loaded_ = manager_.load(name_, "particle_surface_tracker/TrackerNodelet", remappings, {});
   publisher_ = ros::NodeHandle().advertise<sensor_msgs::PointCloud2>(input(), 1000);
   if (!loaded_) return;

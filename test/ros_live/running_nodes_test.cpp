@@ -1,10 +1,13 @@
 // Nodelets of a manager and a node that run in processes of their own.
 
+#include <algorithm>
 #include <memory>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
-#include <rosgraph_msgs/Log.h>
+#include <particle_surface_tracker/SaveMesh.h>
 
+#include "particle_surface_tracker/io/mesh_reader.h"
 #include "ros_live/live_node.h"
 
 namespace particle_surface_tracker::test {
@@ -63,6 +66,29 @@ TEST_F(RunningNodesTest, LateSubscribersOfOtherProcessesGetTheLastMesh) {
     Collector<TrackedMesh> meshes(topic);
     ASSERT_EQ(meshes.wait_for(1).size(), 1u) << topic;
     EXPECT_EQ(meshes.wait_for(1)[0]->header.stamp, ball_cloud(4)->header.stamp) << topic;
+  }
+}
+
+TEST_F(RunningNodesTest, TheMeshIsSavedBelowTheFolder) {
+  SaveMesh call;
+  call.request.path = "running_nodes/ball.ply";
+  ASSERT_TRUE(ros::service::call("/alone/save_mesh", call));
+  ASSERT_TRUE(call.response.success) << call.response.message;
+  Collector<TrackedMesh> meshes("/alone/mesh");
+  ASSERT_EQ(meshes.wait_for(1).size(), 1u);
+  EXPECT_EQ(3 * read_initial_mesh(call.response.path).mesh.vertex_count(), meshes.wait_for(1)[0]->vertices.size());
+}
+
+TEST_F(RunningNodesTest, DiagnosticsComeUnderTheNameOfEach) {
+  Collector<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  for (const std::string name : {"one: input", "two: tracking", "alone: surface"}) {
+    EXPECT_TRUE(wait_until([&] {
+      const auto all = diagnostics.wait_for(0);
+      return std::any_of(all.begin(), all.end(), [&](const auto& array) {
+        return std::any_of(array->status.begin(), array->status.end(),
+                           [&](const auto& status) { return status.name == name; });
+      });
+    })) << name;
   }
 }
 

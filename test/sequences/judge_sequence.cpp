@@ -27,6 +27,7 @@ struct Options {
   pst::Parameters parameters;
   std::vector<std::string> settings;
   std::optional<std::size_t> last;
+  std::size_t every = 1;
   std::size_t stride = 1;
   std::string csv;
   bool topology = false;
@@ -39,6 +40,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--spacing", options.parameters.particle_spacing, "Particle spacing r [m]")->required();
   app.add_option("--set", options.settings, "A parameter of the tracker, as name=value");
   app.add_option("--last", options.last, "Index of the last frame");
+  app.add_option("--every", options.every, "Show the tracker every N-th frame only")->check(CLI::PositiveNumber);
   app.add_option("--stride", options.stride, "Count crossing triangles in every N-th frame (0: never)");
   app.add_option("--csv", options.csv, "File for the figures");
   app.add_flag("--topology", options.topology,
@@ -70,7 +72,7 @@ void judge_topology(const Options& options) {
   pst::Tracker tracker(options.parameters);
   pst::test::TopologyFigureTaker taker(tracker);
   std::vector<pst::test::TopologyFigures> figures;
-  for (std::size_t n = 0; n < frames.size(); ++n) {
+  for (std::size_t n = 0; n < frames.size(); n += options.every) {
     const pst::FrameReport report = n == 0 ? tracker.start(mesh, frames[n]) : tracker.advance(frames[n], n);
     figures.push_back(taker.take(frames[n], report));
     std::cout << pst::test::topology_row(figures.back(), figures.front()) << std::endl;
@@ -89,7 +91,7 @@ void judge(const Options& options) {
 
   pst::Tracker tracker(options.parameters);
   pst::test::FrameJudgement first;
-  for (std::size_t n = 0; n < frames.size(); ++n) {
+  for (std::size_t n = 0; n < frames.size(); n += options.every) {
     const pst::FrameReport report = n == 0 ? tracker.start(mesh, frames[n]) : tracker.advance(frames[n], n);
     for (const std::string& warning : report.warnings) std::cout << "frame " << n << ": " << warning << "\n";
     const bool count_intersections = options.stride != 0 && n % options.stride == 0;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <particle_surface_tracker/TrackedMesh.h>
@@ -47,6 +48,9 @@ class FrameHandler {
 
   /// Forgets what was tracked: the next cloud starts the tracker anew, with the mesh of the options.
   void reset();
+
+  /// Sets the mesh to begin with, from the next start on.
+  void set_mesh(TriangleMesh mesh) { options_.mesh = std::move(mesh); }
 
   /// Takes over new parameters. Those that cannot change while a mesh is being tracked wait for reset().
   /// \return the names of those that wait.

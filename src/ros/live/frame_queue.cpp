@@ -61,6 +61,14 @@ void FrameQueue::push(Command command) {
   changed_.notify_one();
 }
 
+void FrameQueue::hold(bool held) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    held_ = held;
+  }
+  changed_.notify_one();
+}
+
 void FrameQueue::close() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -69,8 +77,12 @@ void FrameQueue::close() {
   changed_.notify_all();
 }
 
+bool FrameQueue::has_frame() const {
+  return !places_.empty() && !(held_ && places_.front().frame.reception == Reception::kUsable);
+}
+
 bool FrameQueue::wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until) {
-  const auto ready = [this] { return closed_ || !commands_.empty() || !places_.empty(); };
+  const auto ready = [this] { return closed_ || !commands_.empty() || has_frame(); };
   if (until) return changed_.wait_until(lock, *until, ready);
   changed_.wait(lock, ready);
   return true;

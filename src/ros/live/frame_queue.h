@@ -17,8 +17,9 @@ namespace particle_surface_tracker {
 
 /// What happens to frames that arrive faster than they are tracked.
 enum class QueuePolicy {
-  kAll,    ///< They wait; where the queue is full, the one that arrives is dropped.
-  kLatest  ///< Only the newest waits, and the first of a run: to that one the mesh belongs.
+  kAll,     ///< They wait; where the queue is full, the one that arrives is dropped.
+  kLatest,  ///< Only the newest waits, and the first of a run: to that one the mesh belongs.
+  kStrict   ///< As kAll, but nothing is tracked any more after a gap.
 };
 
 /// What came of a message before the tracker has seen it.
@@ -46,6 +47,10 @@ class FrameQueue {
   void push(ReceivedFrame frame);
   void push(Command command);
 
+  /// While frames are held, pop() returns none that is usable. Commands run, and what is not usable is answered as far
+  /// as nothing that waits comes before it.
+  void hold(bool held);
+
   /// Ends the waiting of pop(), now and for ever.
   void close();
 
@@ -67,6 +72,7 @@ class FrameQueue {
   };
 
   bool wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until);
+  bool has_frame() const;
   bool begins_run(const ReceivedFrame& frame);
   void replace_waiting(bool with_begin);
 
@@ -78,6 +84,7 @@ class FrameQueue {
   InputSequence arrivals_;  // Usable frames, as they arrive.
   std::deque<Command> commands_;
   std::size_t clouds_ = 0;
+  bool held_ = false;
   bool closed_ = false;
 };
 

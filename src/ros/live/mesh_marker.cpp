@@ -5,47 +5,73 @@
 namespace particle_surface_tracker {
 namespace {
 
-visualization_msgs::MarkerPtr begin_marker(const std_msgs::Header& header, std::int32_t action) {
-  auto marker = boost::make_shared<visualization_msgs::Marker>();
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerPtr;
+
+constexpr const char* kMesh = "mesh";
+constexpr const char* kSurface = "implicit_surface";
+
+MarkerPtr make_removal(const std_msgs::Header& header, const char* name) {
+  auto marker = boost::make_shared<Marker>();
   marker->header = header;
-  marker->ns = "particle_surface_tracker";
-  marker->id = 0;
-  marker->type = visualization_msgs::Marker::TRIANGLE_LIST;
-  marker->action = action;
+  marker->ns = name;
+  marker->type = Marker::TRIANGLE_LIST;
+  marker->action = Marker::DELETE;
   return marker;
+}
+
+MarkerPtr begin_marker(const std_msgs::Header& header, const char* name, float red, float green, float blue,
+                       float alpha) {
+  MarkerPtr marker = make_removal(header, name);
+  marker->action = Marker::ADD;
+  marker->pose.orientation.w = 1.0;
+  marker->scale.x = marker->scale.y = marker->scale.z = 1.0;
+  marker->color.r = red;
+  marker->color.g = green;
+  marker->color.b = blue;
+  marker->color.a = alpha;
+  return marker;
+}
+
+void add_point(Marker& marker, const float* place) {
+  geometry_msgs::Point point;
+  point.x = place[0];
+  point.y = place[1];
+  point.z = place[2];
+  marker.points.push_back(point);
 }
 
 }  // namespace
 
-visualization_msgs::MarkerPtr make_marker(const TrackedMesh& mesh, bool with_colors) {
-  const auto marker = begin_marker(mesh.header, visualization_msgs::Marker::ADD);
-  marker->pose.orientation.w = 1.0;
-  marker->scale.x = marker->scale.y = marker->scale.z = 1.0;
-  marker->color.r = 0.25f;
-  marker->color.g = 0.55f;
-  marker->color.b = 0.85f;
-  marker->color.a = 1.0f;
-  marker->points.resize(mesh.triangles.size());
-  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-    const float* vertex = &mesh.vertices[3 * std::size_t{mesh.triangles[n]}];
-    marker->points[n].x = vertex[0];
-    marker->points[n].y = vertex[1];
-    marker->points[n].z = vertex[2];
-  }
-  if (!with_colors || mesh.colors.empty()) return marker;
-  marker->colors.resize(mesh.triangles.size());
-  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-    const float* color = &mesh.colors[4 * std::size_t{mesh.triangles[n]}];
-    marker->colors[n].r = color[0];
-    marker->colors[n].g = color[1];
-    marker->colors[n].b = color[2];
-    marker->colors[n].a = color[3];
+MarkerPtr make_mesh_marker(const TrackedView& view, MarkerColoring coloring) {
+  const TrackedMesh& mesh = *view.mesh;
+  MarkerPtr marker = begin_marker(mesh.header, kMesh, 0.25f, 0.55f, 0.85f, 1.0f);
+  marker->points.reserve(mesh.triangles.size());
+  for (const std::uint32_t vertex : mesh.triangles) add_point(*marker, &mesh.vertices[3 * std::size_t{vertex}]);
+  const std::vector<std_msgs::ColorRGBA> colors = vertex_colors(view, coloring);
+  if (colors.empty()) return marker;
+  marker->colors.reserve(mesh.triangles.size());
+  for (const std::uint32_t vertex : mesh.triangles) marker->colors.push_back(colors[vertex]);
+  return marker;
+}
+
+MarkerPtr make_surface_marker(const TrackedView& view) {
+  if (view.surface == nullptr) return make_surface_marker_removal(view.mesh->header);
+  MarkerPtr marker = begin_marker(view.mesh->header, kSurface, 0.9f, 0.6f, 0.2f, 0.4f);
+  const SurfaceTriangulation& surface = view.surface->triangulation;
+  marker->points.reserve(3 * surface.triangles.size());
+  for (const Triangle& triangle : surface.triangles) {
+    for (const std::uint32_t vertex : triangle) add_point(*marker, surface.vertices[vertex].data());
   }
   return marker;
 }
 
-visualization_msgs::MarkerPtr make_marker_removal(const std_msgs::Header& header) {
-  return begin_marker(header, visualization_msgs::Marker::DELETE);
+MarkerPtr make_mesh_marker_removal(const std_msgs::Header& header) {
+  return make_removal(header, kMesh);
+}
+
+MarkerPtr make_surface_marker_removal(const std_msgs::Header& header) {
+  return make_removal(header, kSurface);
 }
 
 }  // namespace particle_surface_tracker

@@ -1,5 +1,7 @@
 #include "ros/live/node_options.h"
 
+#include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,7 +27,8 @@ void read_spacing(PrivateParameters& source, FrameHandlerOptions& handler) {
 
 void read_mesh(PrivateParameters& source, NodeOptions& options) {
   const std::string path = source.text("mesh").value_or("implicit");
-  if (path == "implicit") return;
+  options.mesh_from_topic = path == "topic";
+  if (path == "implicit" || options.mesh_from_topic) return;
   LoadedMesh loaded = read_initial_mesh(path);
   for (const std::string& warning : loaded.warnings) {
     options.warnings.push_back(fmt::format("~mesh '{}': {}", path, warning));
@@ -48,11 +51,41 @@ void read_tracker_parameters(PrivateParameters& source, Parameters& parameters) 
   }
 }
 
-QueuePolicy read_queue_policy(PrivateParameters& source) {
-  const std::string policy = source.text("queue_policy").value_or("all");
-  if (policy == "all") return QueuePolicy::kAll;
-  if (policy == "latest") return QueuePolicy::kLatest;
-  throw ParameterError(fmt::format("~queue_policy is '{}'; it must be one of: all, latest", policy));
+/// One of several named values.
+template <typename Value>
+Value read_choice(PrivateParameters& source, const std::string& name,
+                  const std::vector<std::pair<std::string, Value>>& choices) {
+  const std::string wanted = source.text(name).value_or(choices.front().first);
+  std::string names;
+  for (const auto& [choice, value] : choices) {
+    if (wanted == choice) return value;
+    names += (names.empty() ? "" : ", ") + choice;
+  }
+  throw ParameterError(fmt::format("~{} is '{}'; it must be one of: {}", name, wanted, names));
+}
+
+/// Names with spaces or commas between them, each once.
+std::vector<std::string> read_names(PrivateParameters& source, const std::string& name) {
+  std::string text = source.text(name).value_or("");
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream words(text);
+  std::vector<std::string> names;
+  for (std::string word; words >> word;) {
+    if (std::find(names.begin(), names.end(), word) == names.end()) names.push_back(word);
+  }
+  return names;
+}
+
+void read_marker_options(PrivateParameters& source, NodeOptions& options) {
+  options.marker.max_rate = source.real("marker_max_rate", 10.0, 0.01, 1000.0);
+  options.marker.coloring = read_choice<MarkerColoring>(source, "marker_color_by",
+                                                        {{"none", MarkerColoring::kNone},
+                                                         {"delta", MarkerColoring::kDelta},
+                                                         {"velocity", MarkerColoring::kVelocity},
+                                                         {"id", MarkerColoring::kId},
+                                                         {"carried", MarkerColoring::kCarried}});
+  // It shows what the message has.
+  if (options.marker.coloring == MarkerColoring::kVelocity) options.content.velocities = true;
 }
 
 }  // namespace
@@ -66,9 +99,14 @@ NodeOptions read_node_options(const ros::NodeHandle& private_handle) {
   options.content.normals = source.flag("publish_normals", false);
   options.content.velocities = source.flag("publish_velocities", false);
   options.queue_size = static_cast<std::size_t>(source.whole("queue_size", 50, 1, 1000000));
-  options.queue_policy = read_queue_policy(source);
-  options.marker.max_rate = source.real("marker_max_rate", 10.0, 0.01, 1000.0);
-  options.marker.colors = source.flag("marker_colors", false);
+  options.queue_policy = read_choice<QueuePolicy>(
+      source, "queue_policy",
+      {{"all", QueuePolicy::kAll}, {"latest", QueuePolicy::kLatest}, {"strict", QueuePolicy::kStrict}});
+  options.interpolate = read_names(source, "interpolate");
+  options.save_folder = source.text("save_folder").value_or("");
+  read_marker_options(source, options);
+  options.diagnostics.period = source.real("diagnostic_period", 1.0, 0.1, 3600.0);
+  options.diagnostics.late_after = source.real("late_after", 1.0, 0.0, 1e6);
   read_mesh(source, options);
   for (const std::string& name : source.unknown()) {
     options.warnings.push_back(fmt::format("there is no parameter ~{}; it is set in vain", name));

@@ -8,7 +8,8 @@
 
 #include "particle_surface_tracker/ros/frame_handler.h"
 #include "ros/live/frame_queue.h"
-#include "ros/live/node_outputs.h"
+#include "ros/live/marker_outputs.h"
+#include "ros/live/node_diagnostics.h"
 
 namespace particle_surface_tracker {
 
@@ -18,7 +19,11 @@ struct NodeOptions {
   MessageContent content;
   std::size_t queue_size = 50;
   QueuePolicy queue_policy = QueuePolicy::kAll;
+  bool mesh_from_topic = false;          ///< The mesh to begin with comes from a topic; frames wait for it.
+  std::vector<std::string> interpolate;  ///< Fields of the particles that the mesh is to have.
+  std::string save_folder;               ///< Of meshes that a service is asked to save; empty: none may be.
   MarkerOptions marker;
+  DiagnosticOptions diagnostics;
   std::vector<std::string> warnings;  ///< What a user should know, in words.
 };
 

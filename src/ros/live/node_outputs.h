@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -9,13 +10,10 @@
 #include <particle_surface_tracker/TrackedMesh.h>
 #include <particle_surface_tracker/TrackerStatus.h>
 
-namespace particle_surface_tracker {
+#include "ros/live/marker_outputs.h"
+#include "ros/live/tracked_view.h"
 
-/// How often and how the marker is published.
-struct MarkerOptions {
-  double max_rate = 10.0;  ///< [1/s] of wall time.
-  bool colors = false;     ///< Colours of the vertices; rviz draws them unlit.
-};
+namespace particle_surface_tracker {
 
 /// The topics of a node. Messages are handed over as pointers and not touched again, so that in one process nothing is
 /// copied. Whoever subscribes late gets the last mesh at once.
@@ -26,28 +24,27 @@ class NodeOutputs {
   NodeOutputs(const NodeOutputs&) = delete;
   NodeOutputs& operator=(const NodeOutputs&) = delete;
 
-  /// Publishes the mesh and, where somebody looks and it is not too soon after the last one, the marker.
-  void publish(TrackedMeshConstPtr mesh);
+  /// Publishes the mesh and, where somebody looks and it is not too soon after the last ones, the markers.
+  void publish(std::shared_ptr<const TrackedView> view);
   void publish(const TrackerStatusConstPtr& status) { status_publisher_.publish(status); }
 
   /// Takes the last mesh away, from rviz too.
   void clear();
 
-  /// When a marker is due that came too soon after the last one, if there is one.
-  std::optional<std::chrono::steady_clock::time_point> marker_due() const;
-  void publish_due_marker();
+  /// The last mesh of the run, or null; any thread may ask.
+  TrackedMeshConstPtr last_mesh() const;
+
+  /// When markers are due that came too soon after the last ones, if there are any.
+  std::optional<std::chrono::steady_clock::time_point> markers_due() const { return markers_.due(); }
+  void publish_due_markers() { markers_.publish_due(); }
 
  private:
   void welcome_to_mesh(const ros::SingleSubscriberPublisher& subscriber);
-  void welcome_to_marker(const ros::SingleSubscriberPublisher& subscriber);
 
-  MarkerOptions marker_options_;
-  std::mutex mutex_;  // Of last_mesh_, and of the order in which a late subscriber sees meshes.
+  mutable std::mutex mutex_;  // Of last_mesh_, and of the order in which a late subscriber sees meshes.
   TrackedMeshConstPtr last_mesh_;
-  bool marker_waits_ = false;
-  std::chrono::steady_clock::time_point marker_due_{};
+  MarkerOutputs markers_;
   ros::Publisher mesh_publisher_;
-  ros::Publisher marker_publisher_;
   ros::Publisher status_publisher_;
 };
 

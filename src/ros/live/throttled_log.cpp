@@ -5,12 +5,20 @@
 
 namespace particle_surface_tracker {
 
+void ThrottledLog::debug(const std::string& text) const {
+  ROS_DEBUG_STREAM(name_ << ": " << text);
+}
+
 void ThrottledLog::info(const std::string& text) const {
   ROS_INFO_STREAM(name_ << ": " << text);
 }
 
 void ThrottledLog::warn(const std::string& text) const {
   ROS_WARN_STREAM(name_ << ": " << text);
+}
+
+void ThrottledLog::error(const std::string& text) const {
+  ROS_ERROR_STREAM(name_ << ": " << text);
 }
 
 void ThrottledLog::warn_sometimes(const std::string& kind, const std::string& text) {
@@ -20,7 +28,7 @@ void ThrottledLog::warn_sometimes(const std::string& kind, const std::string& te
 
 void ThrottledLog::error_sometimes(const std::string& kind, const std::string& text) {
   const std::string admitted = admit(kind, text);
-  if (!admitted.empty()) ROS_ERROR_STREAM(name_ << ": " << admitted);
+  if (!admitted.empty()) error(admitted);
 }
 
 std::string ThrottledLog::admit(const std::string& kind, const std::string& text) {

@@ -12,8 +12,11 @@ class ThrottledLog {
  public:
   explicit ThrottledLog(std::string name) : name_(std::move(name)) {}
 
+  /// Every frame may say something here: nobody sees it who has not asked for it.
+  void debug(const std::string& text) const;
   void info(const std::string& text) const;
   void warn(const std::string& text) const;
+  void error(const std::string& text) const;
 
   /// \param kind what this is about; each kind has its own five seconds.
   void warn_sometimes(const std::string& kind, const std::string& text);

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "particle_surface_tracker/core/error.h"
+#include "ros/live/mesh_saver.h"
+
 namespace particle_surface_tracker {
 namespace {
 
@@ -16,12 +21,21 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, const ros::NodeHandle& private_
     : TrackerNode(std::move(handle), private_handle, read_node_options(private_handle)) {}
 
 TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, const NodeOptions& options)
-    : outputs_(private_handle, options.marker),
-      worker_(options, outputs_, private_handle.getNamespace()),
+    : name_(private_handle.getNamespace()),
+      save_folder_(options.save_folder),
+      outputs_(private_handle, options.marker),
+      diagnostics_(handle, private_handle, options.diagnostics),
+      worker_(options, outputs_, diagnostics_, name_),
       parameter_server_(private_handle, options.handler.parameters,
                         [this](const Parameters& parameters) { worker_.set_parameters(parameters, [] {}); }) {
-  for (const std::string& warning : options.warnings) ROS_WARN_STREAM(private_handle.getNamespace() << ": " << warning);
+  for (const std::string& warning : options.warnings) ROS_WARN_STREAM(name_ << ": " << warning);
   reset_service_ = private_handle.advertiseService("reset", &TrackerNode::reset, this);
+  pause_service_ = private_handle.advertiseService("pause", &TrackerNode::pause, this);
+  save_mesh_service_ = private_handle.advertiseService("save_mesh", &TrackerNode::save_mesh, this);
+  if (options.mesh_from_topic) {
+    initial_mesh_ = std::make_unique<InitialMeshTopic>(
+        handle, name_, [this](TriangleMesh mesh) { worker_.set_initial_mesh(std::move(mesh)); });
+  }
   particles_ = handle.subscribe<sensor_msgs::PointCloud2>(
       "particles", static_cast<std::uint32_t>(std::max(options.queue_size, kSmallestSubscriberQueue)),
       [this](const sensor_msgs::PointCloud2ConstPtr& cloud) { worker_.receive(cloud); }, ros::VoidConstPtr(),
@@ -31,7 +45,8 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
 TrackerNode::~TrackerNode() {
   // In this order, so that nothing is called any more that is gone.
   particles_.shutdown();
-  reset_service_.shutdown();
+  if (initial_mesh_) initial_mesh_->shutdown();
+  for (ros::ServiceServer* service : {&reset_service_, &pause_service_, &save_mesh_service_}) service->shutdown();
   worker_.stop();
 }
 
@@ -39,6 +54,32 @@ bool TrackerNode::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response
   worker_.reset();
   response.success = 1;
   response.message = "the next frame starts the tracker with the initial mesh";
+  return true;
+}
+
+bool TrackerNode::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  const bool paused = request.data != 0;
+  worker_.pause(paused);
+  response.success = 1;
+  response.message = paused ? "frames wait after the one in work" : "frames are tracked";
+  return true;
+}
+
+bool TrackerNode::save_mesh(SaveMesh::Request& request, SaveMesh::Response& response) {
+  // What was published last, so that nobody waits for the frame in work.
+  const TrackedMeshConstPtr mesh = outputs_.last_mesh();
+  try {
+    if (mesh == nullptr) throw TrackingError("nothing is tracked yet; there is no mesh to save");
+    response.path = particle_surface_tracker::save_mesh(save_folder_, request.path, *mesh);
+    response.success = 1;
+    response.message = fmt::format("{} vertices, {} triangles of stamp {}.{:09}", mesh->vertices.size() / 3,
+                                   mesh->triangles.size() / 3, mesh->header.stamp.sec, mesh->header.stamp.nsec);
+    ROS_INFO_STREAM(name_ << ": saved the mesh as " << response.path);
+  } catch (const std::exception& error) {
+    response.success = 0;
+    response.message = error.what();
+    ROS_ERROR_STREAM(name_ << ": cannot save the mesh: " << error.what());
+  }
   return true;
 }
 

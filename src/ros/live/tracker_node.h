@@ -1,9 +1,16 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
+#include <particle_surface_tracker/SaveMesh.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include "ros/live/initial_mesh_topic.h"
+#include "ros/live/node_diagnostics.h"
 #include "ros/live/node_options.h"
 #include "ros/live/node_outputs.h"
 #include "ros/live/parameter_server.h"
@@ -11,7 +18,7 @@
 
 namespace particle_surface_tracker {
 
-/// The live tracker, whether it is a node or a nodelet: topics, service and parameters around a TrackingWorker. They
+/// The live tracker, whether it is a node or a nodelet: topics, services and parameters around a TrackingWorker. They
 /// are described in docs/node.md.
 class TrackerNode {
  public:
@@ -23,11 +30,19 @@ class TrackerNode {
   TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, const NodeOptions& options);
 
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool save_mesh(SaveMesh::Request& request, SaveMesh::Response& response);
 
+  std::string name_;
+  std::string save_folder_;
   NodeOutputs outputs_;
+  NodeDiagnostics diagnostics_;
   TrackingWorker worker_;
   ParameterServer parameter_server_;
   ros::ServiceServer reset_service_;
+  ros::ServiceServer pause_service_;
+  ros::ServiceServer save_mesh_service_;
+  std::unique_ptr<InitialMeshTopic> initial_mesh_;
   ros::Subscriber particles_;
 };
 

@@ -8,33 +8,32 @@
 
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
+#include "ros/live/frame_description.h"
+#include "ros/live/particle_attributes.h"
 
 namespace particle_surface_tracker {
-namespace {
 
-std::string stamp_of(const std_msgs::Header& header) {
-  return fmt::format("stamp {}.{:09}", header.stamp.sec, header.stamp.nsec);
-}
-
-std::string count_missing(std::uint64_t count) {
-  return count == 1 ? "1 frame is missing" : fmt::format("{} frames are missing", count);
-}
-
-}  // namespace
-
-TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, const std::string& name)
+TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDiagnostics& diagnostics,
+                               const std::string& name)
     : content_(options.content),
+      interpolate_(options.interpolate),
       outputs_(outputs),
+      diagnostics_(diagnostics),
       log_(name),
       queue_(options.queue_size, options.queue_policy),
+      admission_(options.queue_policy, log_),
       handler_(std::move(options.handler)),
-      thread_([this] { run(); }) {}
+      awaits_mesh_(options.mesh_from_topic) {
+  update_waiting();
+  thread_ = std::thread([this] { run(); });
+}
 
 TrackingWorker::~TrackingWorker() {
   stop();
 }
 
 void TrackingWorker::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+  diagnostics_.note_arrival();
   ReceivedFrame frame;
   frame.header = cloud->header;
   try {
@@ -45,12 +44,34 @@ void TrackingWorker::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
     frame.reason = error.what();
   }
   queue_.push(std::move(frame));
+  if (waits_) queue_.push(FrameQueue::Command([this] { publish_waiting(); }));
 }
 
 void TrackingWorker::reset() {
   queue_.push(FrameQueue::Command([this] {
     log_.info("reset; the next frame starts the tracker");
+    admission_.reset();
+    diagnostics_.note_reset();
     forget_run();
+  }));
+}
+
+void TrackingWorker::pause(bool paused) {
+  queue_.push(FrameQueue::Command([this, paused] {
+    if (paused_ == paused) return;
+    paused_ = paused;
+    log_.info(paused ? "paused; frames wait" : "goes on");
+    update_waiting();
+  }));
+}
+
+void TrackingWorker::set_initial_mesh(TriangleMesh mesh) {
+  queue_.push(FrameQueue::Command([this, mesh = std::move(mesh)] {
+    log_.info(fmt::format("a mesh to begin with has come: {} vertices, {} triangles{}", mesh.vertex_count(),
+                          mesh.triangle_count(), handler_.started() ? "; it is used after the next reset" : ""));
+    handler_.set_mesh(mesh);
+    if (!std::exchange(awaits_mesh_, false)) return;
+    update_waiting();
   }));
 }
 
@@ -78,162 +99,129 @@ void TrackingWorker::stop() {
 
 void TrackingWorker::run() {
   while (!queue_.closed()) {
-    if (const auto frame = queue_.pop(outputs_.marker_due())) {
+    if (const auto frame = queue_.pop(outputs_.markers_due())) {
       process(*frame);
     } else if (!queue_.closed()) {
-      outputs_.publish_due_marker();
+      outputs_.publish_due_markers();
     }
   }
 }
 
 void TrackingWorker::process(const ReceivedFrame& frame) {
-  ++counts_.frames_received;
   TrackerStatus status;
-  if (frame.reception == Reception::kUsable) {
-    process_usable(frame, status);
-  } else {
-    process_unusable(frame, status);
-  }
+  const FrameAdmission::Verdict verdict = admission_.judge(frame, status);
+  if (verdict == FrameAdmission::Verdict::kBeginsRun) forget_run();
+  if (verdict != FrameAdmission::Verdict::kRefused) try_to_track(frame, status);
+  admission_.conclude(frame, status);
   publish(frame, std::move(status));
 }
 
-void TrackingWorker::process_unusable(const ReceivedFrame& frame, TrackerStatus& status) {
-  sequence_.pass_over();
-  status.reason = frame.reason;
-  switch (frame.reception) {
-    case Reception::kDropped:
-      status.state = TrackerStatus::DROPPED;
-      ++counts_.frames_dropped;
-      log_.warn_sometimes("dropped",
-                          fmt::format("dropped the frame of {}: {}; {} so far. Slow the input down (rosbag play "
-                                      "--rate-control-topic), or raise ~queue_size",
-                                      stamp_of(frame.header), frame.reason, counts_.frames_dropped));
-      break;
-    case Reception::kReplaced:
-      status.state = TrackerStatus::SKIPPED;
-      ++counts_.frames_skipped;
-      break;
-    default:
-      status.state = TrackerStatus::INVALID;
-      ++counts_.frames_invalid;
-      log_.warn_sometimes("invalid",
-                          fmt::format("cannot use the frame of {}: {}", stamp_of(frame.header), frame.reason));
-  }
-}
-
-void TrackingWorker::process_usable(const ReceivedFrame& frame, TrackerStatus& status) {
-  if (!admit(frame, status)) return;
+void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& status) {
   try {
     track(frame, status);
+    return;
   } catch (const InputError& error) {
+    status.state = TrackerStatus::INVALID;
     status.reason = error.what();
   } catch (const ParticleError& error) {
+    status.state = TrackerStatus::INVALID;
     status.reason = error.what();
   } catch (const std::exception& error) {
     status.state = TrackerStatus::FAILED;
     status.reason = error.what();
-    ++counts_.frames_failed;
-    log_.error_sometimes("failed",
-                         fmt::format("cannot track the frame of {}: {}", stamp_of(frame.header), error.what()));
-    return;
   }
-  if (status.reason.empty()) return;
-  status.state = TrackerStatus::INVALID;
-  ++counts_.frames_invalid;
-  log_.warn_sometimes("invalid", fmt::format("cannot use the frame of {}: {}", stamp_of(frame.header), status.reason));
-}
-
-bool TrackingWorker::admit(const ReceivedFrame& frame, TrackerStatus& status) {
-  using Verdict = InputSequence::Verdict;
-  const InputSequence::Judgement judgement = sequence_.judge(frame.header);
-  status.frame = judgement.index;
-  switch (judgement.verdict) {
-    case Verdict::kRepeated:
-    case Verdict::kLate:
-      status.state = TrackerStatus::SKIPPED;
-      status.reason = judgement.verdict == Verdict::kRepeated ? "its stamp is that of the frame before"
-                                                              : "its stamp is below that of the frame before";
-      ++counts_.frames_skipped;
-      log_.warn_sometimes("skipped", fmt::format("skipped the frame of {}: {}; {} so far", stamp_of(frame.header),
-                                                 status.reason, counts_.frames_skipped));
-      return false;
-    case Verdict::kWentBack:
-      log_.warn(fmt::format("the time went back, to {}: the tracker starts again", stamp_of(frame.header)));
-      break;
-    case Verdict::kOtherFrameId:
-      log_.warn(fmt::format("frame_id changed, to '{}': the tracker starts again", frame.header.frame_id));
-      break;
-    case Verdict::kFirst:
-    case Verdict::kNext:
-      break;
-  }
-  if (judgement.verdict != Verdict::kNext) {
-    ++counts_.run;
-    handler_.reset();
-    outputs_.clear();
-  }
-  if (judgement.missing > 0) {
-    counts_.frames_missing += judgement.missing;
-    status.warnings.push_back(count_missing(judgement.missing) + " before this one");
-    log_.warn_sometimes(
-        "missing", fmt::format("{} before {}; {} so far. What is lost on the way: raise ~queue_size, and the queue "
-                               "of the publisher",
-                               count_missing(judgement.missing), stamp_of(frame.header), counts_.frames_missing));
-  }
-  return true;
 }
 
 void TrackingWorker::track(const ReceivedFrame& frame, TrackerStatus& status) {
   const bool is_first = !handler_.started();
+  const std::uint32_t first_new_id = is_first ? 0 : handler_.tracker().mesh().next_id();
   const FrameReport report = handler_.handle(*frame.cloud, status.frame);
-  auto mesh = boost::make_shared<TrackedMesh>(handler_.message(content_));
   status.state = is_first ? TrackerStatus::STARTED : TrackerStatus::TRACKED;
-  status.topology_version = mesh->topology_version;
   describe(report, status);
-  outputs_.publish(std::move(mesh));
-  ++counts_.frames_tracked;
-  if (is_first) {
-    log_.info(fmt::format("tracking from {} on: {} particles, spacing {:.6g} m, {} vertices, {} triangles",
-                          stamp_of(frame.header), report.particles, handler_.tracker().parameters().particle_spacing,
-                          report.vertices, report.triangles));
-  }
-  for (const std::string& warning : report.warnings) {
-    log_.warn_sometimes("tracking", fmt::format("frame of {}: {}", stamp_of(frame.header), warning));
-  }
+  const auto view = make_view(frame, report, first_new_id, status);
+  last_mesh_ = view->mesh;
+  diagnostics_.note(report, last_mesh_);
+  outputs_.publish(view);
+  say(frame, report, status);
 }
 
-void TrackingWorker::describe(const FrameReport& report, TrackerStatus& status) const {
-  status.warnings.insert(status.warnings.end(), report.warnings.begin(), report.warnings.end());
-  status.tracking_time = report.total_time;
-  status.particles = static_cast<std::uint32_t>(report.particles);
-  status.vertices = static_cast<std::uint32_t>(report.vertices);
-  status.triangles = static_cast<std::uint32_t>(report.triangles);
-  status.components = static_cast<std::uint32_t>(report.components);
-  status.flagged_vertices = static_cast<std::uint32_t>(report.flagged_vertices);
-  status.flagged_cells = static_cast<std::uint32_t>(report.flagged_cells);
-  status.original_vertices = static_cast<std::uint32_t>(report.original_vertices_alive);
-  status.volume = report.volume;
-  status.implicit_volume = report.implicit_volume;
+std::shared_ptr<const TrackedView> TrackingWorker::make_view(const ReceivedFrame& frame, const FrameReport& report,
+                                                             std::uint32_t first_new_id, TrackerStatus& status) {
+  auto mesh = boost::make_shared<TrackedMesh>(handler_.message(content_));
+  status.topology_version = mesh->topology_version;
+  add_interpolated(*frame.cloud, *mesh, status);
+  auto view = std::make_shared<TrackedView>(view_of(handler_.tracker(), report, first_new_id));
+  view->mesh = std::move(mesh);
+  const FrameReport::Topology& topology = report.topology;
+  if (last_mesh_ != nullptr && topology.remeshed_cells + topology.removed_components > 0) {
+    view->events = find_topology_events(*last_mesh_, *view->mesh, 2.0 * view->r);
+    describe(view->events, status);
+  }
+  return view;
+}
+
+void TrackingWorker::add_interpolated(const sensor_msgs::PointCloud2& cloud, TrackedMesh& mesh, TrackerStatus& status) {
+  if (interpolate_.empty() || cloud.data.empty()) return;
+  const ParticleAttributes attributes = read_particle_attributes(cloud, interpolate_);
+  for (const std::string& missing : attributes.missing) {
+    status.warnings.push_back(missing);
+    log_.warn_sometimes("interpolate", missing);
+  }
+  mesh.interpolated = interpolate(attributes, mesh.vertices, handler_.tracker().parameters().particle_spacing);
+}
+
+void TrackingWorker::say(const ReceivedFrame& frame, const FrameReport& report, const TrackerStatus& status) {
+  const std::string stamp = fmt::format("stamp {}.{:09}", frame.header.stamp.sec, frame.header.stamp.nsec);
+  log_.debug(fmt::format("frame {} of {}: {} vertices, {} flagged, {} splits, {} merges, {:.3g} s", status.frame, stamp,
+                         report.vertices, report.flagged_vertices, status.splits, status.merges, report.total_time));
+  if (status.state == TrackerStatus::STARTED) {
+    log_.info(fmt::format("tracking from {} on: {} particles, spacing {:.6g} m, {} vertices, {} triangles", stamp,
+                          report.particles, handler_.tracker().parameters().particle_spacing, report.vertices,
+                          report.triangles));
+  }
+  for (const std::string& warning : report.warnings) {
+    log_.warn_sometimes("tracking", fmt::format("frame of {}: {}", stamp, warning));
+  }
 }
 
 void TrackingWorker::forget_run() {
-  sequence_.reset();
   handler_.reset();
   outputs_.clear();
+  last_mesh_.reset();
+}
+
+std::string TrackingWorker::waiting_for() const {
+  if (paused_) return "paused: frames wait until ~pause is called with false";
+  if (awaits_mesh_) return "frames wait for the mesh to begin with, on the topic initial_mesh";
+  return "";
+}
+
+void TrackingWorker::update_waiting() {
+  const std::string reason = waiting_for();
+  waits_ = !reason.empty();
+  queue_.hold(waits_);
+  diagnostics_.note_waiting(reason);
+  publish_waiting();
+}
+
+void TrackingWorker::publish_waiting() {
+  const std::string reason = waiting_for();
+  if (reason.empty()) return;
+  TrackerStatus status;
+  status.state = TrackerStatus::WAITING;
+  status.header = last_header_;
+  status.reason = reason;
+  status.queue_length = static_cast<std::uint32_t>(queue_.size());
+  admission_.describe(status);
+  outputs_.publish(boost::make_shared<const TrackerStatus>(std::move(status)));
 }
 
 void TrackingWorker::publish(const ReceivedFrame& frame, TrackerStatus status) {
+  last_header_ = frame.header;
   status.header = frame.header;
-  status.run = counts_.run;
-  status.frames_received = counts_.frames_received;
-  status.frames_tracked = counts_.frames_tracked;
-  status.frames_skipped = counts_.frames_skipped;
-  status.frames_dropped = counts_.frames_dropped;
-  status.frames_invalid = counts_.frames_invalid;
-  status.frames_failed = counts_.frames_failed;
-  status.frames_missing = counts_.frames_missing;
   status.queue_length = static_cast<std::uint32_t>(queue_.size());
   status.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - frame.arrival).count();
+  diagnostics_.note(status);
   outputs_.publish(boost::make_shared<const TrackerStatus>(std::move(status)));
 }
 

@@ -1,18 +1,24 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <particle_surface_tracker/TrackerStatus.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "particle_surface_tracker/ros/frame_handler.h"
+#include "ros/live/frame_admission.h"
 #include "ros/live/frame_queue.h"
-#include "ros/live/input_sequence.h"
+#include "ros/live/node_diagnostics.h"
 #include "ros/live/node_options.h"
 #include "ros/live/node_outputs.h"
 #include "ros/live/throttled_log.h"
+#include "ros/live/tracked_view.h"
 
 namespace particle_surface_tracker {
 
@@ -20,9 +26,9 @@ namespace particle_surface_tracker {
 class TrackingWorker {
  public:
   /// \param name of the node, for the log.
-  /// \param outputs outlives this object.
+  /// \param outputs, diagnostics outlive this object.
   /// \throw ParameterError as FrameHandler.
-  TrackingWorker(NodeOptions options, NodeOutputs& outputs, const std::string& name);
+  TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDiagnostics& diagnostics, const std::string& name);
   ~TrackingWorker();
 
   /// Checks the layout of a cloud and puts it in the row. Answers within microseconds.
@@ -30,6 +36,12 @@ class TrackingWorker {
 
   /// After the frame in work: the next one starts the tracker anew.
   void reset();
+
+  /// After the frame in work: frames wait, or are tracked again.
+  void pause(bool paused);
+
+  /// After the frame in work: sets the mesh to begin with. A run that waits for it starts.
+  void set_initial_mesh(TriangleMesh mesh);
 
   /// After the frame in work: takes over new parameters.
   /// \param refuse is called, on the worker's thread, if they cannot be taken over.
@@ -41,23 +53,35 @@ class TrackingWorker {
  private:
   void run();
   void process(const ReceivedFrame& frame);
-  void process_usable(const ReceivedFrame& frame, TrackerStatus& status);
-  void process_unusable(const ReceivedFrame& frame, TrackerStatus& status);
-  // Whether the frame is to be tracked; if not, the status says why.
-  bool admit(const ReceivedFrame& frame, TrackerStatus& status);
+  // Tracks it, or says in the status why it cannot.
+  void try_to_track(const ReceivedFrame& frame, TrackerStatus& status);
   void track(const ReceivedFrame& frame, TrackerStatus& status);
-  void describe(const FrameReport& report, TrackerStatus& status) const;
+  std::shared_ptr<const TrackedView> make_view(const ReceivedFrame& frame, const FrameReport& report,
+                                               std::uint32_t first_new_id, TrackerStatus& status);
+  void add_interpolated(const sensor_msgs::PointCloud2& cloud, TrackedMesh& mesh, TrackerStatus& status);
+  void say(const ReceivedFrame& frame, const FrameReport& report, const TrackerStatus& status);
   void forget_run();
+  // What nothing is tracked for now; empty if it is.
+  std::string waiting_for() const;
+  // Lets frames wait, or not any more, and tells everyone.
+  void update_waiting();
+  void publish_waiting();
   void publish(const ReceivedFrame& frame, TrackerStatus status);
 
   MessageContent content_;
+  std::vector<std::string> interpolate_;
   NodeOutputs& outputs_;
+  NodeDiagnostics& diagnostics_;
   ThrottledLog log_;
   FrameQueue queue_;
+  FrameAdmission admission_;
   FrameHandler handler_;
-  InputSequence sequence_;
-  TrackerStatus counts_;  // Only its counters are used.
-  std::thread thread_;    // Last: it uses all others.
+  TrackedMeshConstPtr last_mesh_;  // Of this run.
+  std_msgs::Header last_header_;   // Of the last status.
+  bool paused_ = false;
+  bool awaits_mesh_;
+  std::atomic<bool> waits_{false};
+  std::thread thread_;  // Last: it uses all others.
 };
 
 }  // namespace particle_surface_tracker

@@ -1,0 +1,154 @@
+#include "ros/live/frame_admission.h"
+
+#include <fmt/format.h>
+
+namespace particle_surface_tracker {
+namespace {
+
+std::string stamp_of(const std_msgs::Header& header) {
+  return fmt::format("stamp {}.{:09}", header.stamp.sec, header.stamp.nsec);
+}
+
+std::string count_missing(std::uint64_t count) {
+  return count == 1 ? "1 frame is missing" : fmt::format("{} frames are missing", count);
+}
+
+}  // namespace
+
+FrameAdmission::Verdict FrameAdmission::judge(const ReceivedFrame& frame, TrackerStatus& status) {
+  if (policy_ == QueuePolicy::kStrict && gap_.empty() && frame.reception == Reception::kDropped) {
+    open_gap(fmt::format("{} at the frame of {}", frame.reason, stamp_of(frame.header)));
+  }
+  if (!gap_.empty()) {
+    refuse(status);
+    return Verdict::kRefused;
+  }
+  if (frame.reception == Reception::kUsable) return judge_header(frame, status);
+  sequence_.pass_over();
+  status.reason = frame.reason;
+  status.state = frame.reception == Reception::kDropped    ? TrackerStatus::DROPPED
+                 : frame.reception == Reception::kReplaced ? TrackerStatus::SKIPPED
+                                                           : TrackerStatus::INVALID;
+  return Verdict::kRefused;
+}
+
+FrameAdmission::Verdict FrameAdmission::judge_header(const ReceivedFrame& frame, TrackerStatus& status) {
+  using Sequence = InputSequence::Verdict;
+  const InputSequence::Judgement judgement = sequence_.judge(frame.header);
+  status.frame = judgement.index;
+  switch (judgement.verdict) {
+    case Sequence::kRepeated:
+    case Sequence::kLate:
+      status.state = TrackerStatus::SKIPPED;
+      status.reason = judgement.verdict == Sequence::kRepeated ? "its stamp is that of the frame before"
+                                                               : "its stamp is below that of the frame before";
+      return Verdict::kRefused;
+    case Sequence::kWentBack:
+      log_.warn(fmt::format("the time went back, to {}: the tracker starts again", stamp_of(frame.header)));
+      break;
+    case Sequence::kOtherFrameId:
+      log_.warn(fmt::format("frame_id changed, to '{}': the tracker starts again", frame.header.frame_id));
+      break;
+    case Sequence::kFirst:
+    case Sequence::kNext:
+      break;
+  }
+  if (judgement.missing > 0) note_missing(frame, judgement.missing, status);
+  if (!gap_.empty()) {
+    refuse(status);
+    return Verdict::kRefused;
+  }
+  if (judgement.verdict == Sequence::kNext) return Verdict::kContinues;
+  ++counts_.run;
+  has_mesh_ = false;
+  return Verdict::kBeginsRun;
+}
+
+void FrameAdmission::note_missing(const ReceivedFrame& frame, std::uint64_t missing, TrackerStatus& status) {
+  counts_.frames_missing += missing;
+  const std::string what = count_missing(missing);
+  if (policy_ == QueuePolicy::kStrict) {
+    open_gap(fmt::format("{} before {}", what, stamp_of(frame.header)));
+    return;
+  }
+  status.warnings.push_back(what + " before this one");
+  log_.warn_sometimes("missing", fmt::format("{} before {}; {} so far. What is lost on the way: raise ~queue_size, and "
+                                             "the queue of the publisher",
+                                             what, stamp_of(frame.header), counts_.frames_missing));
+}
+
+void FrameAdmission::open_gap(const std::string& what) {
+  gap_ = what;
+  log_.error(
+      fmt::format("a gap in the input: {}. queue_policy is strict: no more frames are tracked until ~reset", gap_));
+}
+
+void FrameAdmission::refuse(TrackerStatus& status) const {
+  status.state = TrackerStatus::FAILED;
+  status.reason = fmt::format("there is a gap in the input: {} (queue_policy is strict; call ~reset)", gap_);
+}
+
+void FrameAdmission::conclude(const ReceivedFrame& frame, TrackerStatus& status) {
+  count(frame, status);
+  describe(status);
+  if (policy_ != QueuePolicy::kStrict || !gap_.empty()) return;
+  // What is not in the mesh is a gap for the next frame, for whatever reason. Before the first mesh it is none, unless
+  // the frame that the mesh belongs to is the one that failed.
+  if (status.state == TrackerStatus::FAILED || (status.state == TrackerStatus::INVALID && has_mesh_)) {
+    open_gap(fmt::format("the frame of {} could not be tracked ({})", stamp_of(frame.header), status.reason));
+  }
+}
+
+void FrameAdmission::count(const ReceivedFrame& frame, const TrackerStatus& status) {
+  ++counts_.frames_received;
+  const std::string stamp = stamp_of(frame.header);
+  switch (status.state) {
+    case TrackerStatus::STARTED:
+    case TrackerStatus::TRACKED:
+      ++counts_.frames_tracked;
+      has_mesh_ = true;
+      break;
+    case TrackerStatus::SKIPPED:
+      ++counts_.frames_skipped;
+      // That a newer one was taken is what was asked for.
+      if (frame.reception == Reception::kReplaced) break;
+      log_.warn_sometimes("skipped", fmt::format("skipped the frame of {}: {}; {} so far", stamp, status.reason,
+                                                 counts_.frames_skipped));
+      break;
+    case TrackerStatus::DROPPED:
+      ++counts_.frames_dropped;
+      log_.warn_sometimes("dropped",
+                          fmt::format("dropped the frame of {}: {}; {} so far. Slow the input down (rosbag play "
+                                      "--rate-control-topic), or raise ~queue_size",
+                                      stamp, status.reason, counts_.frames_dropped));
+      break;
+    case TrackerStatus::INVALID:
+      ++counts_.frames_invalid;
+      log_.warn_sometimes("invalid", fmt::format("cannot use the frame of {}: {}", stamp, status.reason));
+      break;
+    default:
+      ++counts_.frames_failed;
+      // With policy strict it is said as a gap, once.
+      if (policy_ == QueuePolicy::kStrict) break;
+      log_.error_sometimes("failed", fmt::format("cannot track the frame of {}: {}", stamp, status.reason));
+  }
+}
+
+void FrameAdmission::reset() {
+  sequence_.reset();
+  has_mesh_ = false;
+  gap_.clear();
+}
+
+void FrameAdmission::describe(TrackerStatus& status) const {
+  status.run = counts_.run;
+  status.frames_received = counts_.frames_received;
+  status.frames_tracked = counts_.frames_tracked;
+  status.frames_skipped = counts_.frames_skipped;
+  status.frames_dropped = counts_.frames_dropped;
+  status.frames_invalid = counts_.frames_invalid;
+  status.frames_failed = counts_.frames_failed;
+  status.frames_missing = counts_.frames_missing;
+}
+
+}  // namespace particle_surface_tracker

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+
+#include <particle_surface_tracker/TrackerStatus.h>
+
+#include "ros/live/frame_queue.h"
+#include "ros/live/input_sequence.h"
+#include "ros/live/throttled_log.h"
+
+namespace particle_surface_tracker {
+
+/// Decides which of the frames that arrived are tracked, says in status and log why the others are not, and counts all.
+class FrameAdmission {
+ public:
+  /// \param log outlives this object.
+  FrameAdmission(QueuePolicy policy, ThrottledLog& log) : policy_(policy), log_(log) {}
+
+  enum class Verdict {
+    kRefused,    ///< Not to be tracked; the status says why.
+    kBeginsRun,  ///< The tracker starts anew with it.
+    kContinues
+  };
+
+  /// Looks at the next frame.
+  Verdict judge(const ReceivedFrame& frame, TrackerStatus& status);
+
+  /// Takes note of what became of it in the end, whether it was tracked or not, and writes the counts into the status.
+  void conclude(const ReceivedFrame& frame, TrackerStatus& status);
+
+  /// The next frame is the first of a run; a gap is forgiven.
+  void reset();
+
+  /// The counts so far.
+  void describe(TrackerStatus& status) const;
+
+ private:
+  Verdict judge_header(const ReceivedFrame& frame, TrackerStatus& status);
+  void note_missing(const ReceivedFrame& frame, std::uint64_t missing, TrackerStatus& status);
+  void refuse(TrackerStatus& status) const;
+  void open_gap(const std::string& what);
+  void count(const ReceivedFrame& frame, const TrackerStatus& status);
+
+  QueuePolicy policy_;
+  ThrottledLog& log_;
+  InputSequence sequence_;
+  TrackerStatus counts_;   // Only its counters are used.
+  bool has_mesh_ = false;  // A frame of this run was tracked.
+  std::string gap_;        // Of policy strict: what was lost first, in words; empty as long as nothing was.
+};
+
+}  // namespace particle_surface_tracker

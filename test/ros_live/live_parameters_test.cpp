@@ -1,0 +1,189 @@
+// Parameters of the live node: at the start, with dynamic_reconfigure, and bad ones.
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <dynamic_reconfigure/config_tools.h>
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Log.h>
+
+#include "ros/ros_test_support.h"
+#include "ros_live/live_node_test.h"
+
+namespace particle_surface_tracker::test {
+namespace {
+
+using State = TrackerStatus;
+
+class LiveParameters : public LiveNodeTest {};
+
+class Reconfigure {
+ public:
+  explicit Reconfigure(const std::string& node) : node_(node), updates_(node + "/parameter_updates") {
+    updates_.wait_for(1);
+  }
+
+  /// Asks for a value; returns the values in force after that.
+  template <typename Value>
+  dynamic_reconfigure::Config set(const std::string& name, const Value& value) {
+    dynamic_reconfigure::Reconfigure call;
+    dynamic_reconfigure::ConfigTools::appendParameter(call.request.config, name, value);
+    if (!ros::service::call(node_ + "/set_parameters", call)) throw std::runtime_error("no reconfigure");
+    return call.response.config;
+  }
+
+  Collector<dynamic_reconfigure::Config>& updates() { return updates_; }
+
+ private:
+  std::string node_;
+  Collector<dynamic_reconfigure::Config> updates_;
+};
+
+template <typename Value>
+Value value_of(const dynamic_reconfigure::Config& config, const std::string& name) {
+  Value value{};
+  if (!dynamic_reconfigure::ConfigTools::getParameter(config, name, value)) throw std::runtime_error("no " + name);
+  return value;
+}
+
+TEST_F(LiveParameters, ParametersOfTheStartAreShownWithTheirRanges) {
+  const auto node = load({{"tau", "0.7"}, {"projection", "one_step"}});
+  Collector<dynamic_reconfigure::Config> updates(node->name() + "/parameter_updates");
+  ASSERT_GE(updates.wait_for(1).size(), 1u);
+  EXPECT_EQ(value_of<double>(*updates.wait_for(1).back(), "tau"), 0.7);
+  EXPECT_EQ(value_of<std::string>(*updates.wait_for(1).back(), "projection"), "one_step");
+  Collector<dynamic_reconfigure::ConfigDescription> descriptions(node->name() + "/parameter_descriptions");
+  ASSERT_GE(descriptions.wait_for(1).size(), 1u);
+  const auto description = descriptions.wait_for(1).back();
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.name == "particle_spacing" || info.type != ParameterInfo::Type::kReal) continue;
+    EXPECT_EQ(value_of<double>(description->min, info.name), info.minimum) << info.name;
+    EXPECT_EQ(value_of<double>(description->max, info.name), info.maximum) << info.name;
+  }
+}
+
+TEST_F(LiveParameters, ReconfiguredValuesAreAppliedBetweenFrames) {
+  const auto node = load();
+  Collector<TrackedMesh> meshes(node->name() + "/mesh");
+  ASSERT_TRUE(meshes.wait_for_publisher());
+  Reconfigure reconfigure(node->name());
+  node->answer(0);
+  EXPECT_EQ(value_of<std::string>(reconfigure.set("advection", std::string("average")), "advection"), "average");
+  node->answer(1);
+  FrameHandler offline = handler();
+  offline.handle(*ball_cloud(0), 0);
+  Parameters parameters;
+  parameters.particle_spacing = kBallSpacing;
+  parameters.advection = AdvectionMethod::kAverage;
+  EXPECT_TRUE(offline.set_parameters(parameters).empty());
+  offline.handle(*ball_cloud(1), 1);
+  ASSERT_EQ(meshes.wait_for(2).size(), 2u);
+  EXPECT_EQ(bytes_of(*meshes.wait_for(2)[1]), bytes_of(offline.message()));
+}
+
+TEST_F(LiveParameters, RefusedValuesAreSaidAndTheOldOnesShown) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  const auto node = load();
+  Reconfigure reconfigure(node->name());
+  node->answer(0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(value_of<double>(reconfigure.set("tau", 1e9), "tau"), 0.5);
+  EXPECT_EQ(value_of<double>(reconfigure.set("tau", nan), "tau"), 0.5);
+  EXPECT_EQ(value_of<std::string>(reconfigure.set("advection", std::string("guess")), "advection"), "affine");
+  EXPECT_EQ(value_of<int>(reconfigure.set("projection_max_steps", 0), "projection_max_steps"), 100);
+  EXPECT_EQ(value_of<double>(reconfigure.set("affine_max_radius", 1.0), "affine_max_radius"), 4.0);
+  EXPECT_EQ(value_of<double>(*reconfigure.updates().wait_for(1).back(), "tau"), 0.5);
+  EXPECT_TRUE(wait_until([&] {
+    const auto lines = log.wait_for(0);
+    return std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+      return line->level == rosgraph_msgs::Log::WARN &&
+             line->msg.find(node->name() + ": refused: tau is 1000000000") == 0;
+    });
+  }));
+  EXPECT_EQ(node->answer(1).state, State::TRACKED);
+}
+
+TEST_F(LiveParameters, ValuesThatNeedAResetWaitForIt) {
+  const auto node = load();
+  Collector<TrackedMesh> meshes(node->name() + "/mesh");
+  ASSERT_TRUE(meshes.wait_for_publisher());
+  Reconfigure reconfigure(node->name());
+  FrameHandler unchanged = handler();
+  node->answer(0);
+  reconfigure.set("dx_phi", 0.25);
+  node->answer(1);
+  unchanged.handle(*ball_cloud(0), 0);
+  unchanged.handle(*ball_cloud(1), 1);
+  EXPECT_EQ(bytes_of(*meshes.wait_for(2).at(1)), bytes_of(unchanged.message()));
+
+  node->answer(0);  // The time goes back.
+  FrameHandlerOptions options;
+  options.parameters.particle_spacing = kBallSpacing;
+  options.parameters.dx_phi = 0.25;
+  options.mesh = ball_mesh();
+  FrameHandler finer(options);
+  finer.handle(*ball_cloud(0), 0);
+  EXPECT_EQ(meshes.wait_for(3).at(2)->delta, finer.message().delta);
+  EXPECT_NE(meshes.wait_for(3).at(2)->delta, meshes.wait_for(3).at(0)->delta);
+}
+
+TEST_F(LiveParameters, NodesThatCannotStartSayWhyAndTheManagerLives) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  const auto said = [&](const std::string& name, const std::string& words) {
+    return wait_until([&] {
+      const auto lines = log.wait_for(0);
+      return std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+        return line->level == rosgraph_msgs::Log::FATAL && line->msg.find(name + ": cannot start: ") == 0 &&
+               line->msg.find(words) != std::string::npos;
+      });
+    });
+  };
+  ASSERT_TRUE(log.wait_for_publisher());
+  write_file(folder_ / "bad.ply", "ply\nnot really");
+  write_file(folder_ / "bad.yaml", "tau: 0.5\ntua: 7\n");
+  const std::vector<std::pair<std::map<std::string, std::string>, std::string>> cases = {
+      {{{"mesh", folder_ / "none.ply"}}, "none.ply"},
+      {{{"mesh", folder_ / "bad.ply"}}, "bad.ply"},
+      {{{"spacing", "wide"}}, "~spacing is 'wide'"},
+      {{{"spacing", "-1"}}, "~spacing is '-1'"},
+      {{{"tau", "1e9"}}, "~tau is"},
+      {{{"config", folder_ / "bad.yaml"}}, "tua"},
+      {{{"queue_size", "0"}}, "~queue_size is '0'"},
+      {{{"queue_policy", "some"}}, "all, latest"},
+      {{{"refine_initial", "maybe"}}, "true or false"}};
+  for (const auto& [parameters, words] : cases) {
+    const auto node = load(parameters);
+    EXPECT_FALSE(node->loaded()) << words;
+    EXPECT_TRUE(said(node->name(), words)) << words;
+  }
+  const auto node = load();
+  ASSERT_TRUE(node->loaded());
+  EXPECT_EQ(node->answer(0).state, State::STARTED);
+}
+
+TEST_F(LiveParameters, UnknownParametersAreSaid) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  ASSERT_TRUE(log.wait_for_publisher());
+  const auto node = load({{"taau", "0.4"}});
+  EXPECT_TRUE(node->loaded());
+  EXPECT_TRUE(wait_until([&] {
+    const auto lines = log.wait_for(0);
+    return std::any_of(lines.begin(), lines.end(), [](const auto& line) {
+      return line->msg.find("there is no parameter ~taau") != std::string::npos;
+    });
+  }));
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker::test
+
+int main(int argc, char** argv) {
+  return particle_surface_tracker::test::run_live_tests(argc, argv);
+}
