@@ -92,8 +92,8 @@ std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_
 }  // namespace
 
 double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const Detection& detection,
-                       std::uint32_t original_vertices, const Parameters& parameters, UpkeepMemory& memory,
-                       FrameReport& report, StageTimer& timer) {
+                       std::uint32_t original_vertices, const Parameters& parameters, NarrowBand& band,
+                       UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
   const double h = parameters.dx_gamma * parameters.particle_spacing;
   const std::uint32_t first_new_id = mesh.next_id();
   Cells flagged = detection.flagged_cells;
@@ -146,7 +146,7 @@ double update_topology(TriangleMesh& mesh, const ImplicitSurface& surface, const
   report.upkeep.refused = kept.refused;
 
   return measure_fresh_delta(mesh, fresh_vertices(mesh, first_new_id, relaxed_ids, kept.fresh), first_new_id,
-                             first_upkeep_id, surface, parameters, report, timer);
+                             first_upkeep_id, band, parameters, report);
 }
 
 }  // namespace particle_surface_tracker
