@@ -25,20 +25,25 @@ std::int32_t floor_to_int(double value) {
   return truncated - static_cast<std::int32_t>(value < truncated);
 }
 
+LatticeCoord cell_at(const Vec3d& position, double cell_size) {
+  return {floor_to_int(position.x() / cell_size + 0.5), floor_to_int(position.y() / cell_size + 0.5),
+          floor_to_int(position.z() / cell_size + 0.5)};
+}
+
 std::uint32_t cell_in_tile(const LatticeCoord& cell) {
   return static_cast<std::uint32_t>((cell[0] & 7) * 64 + (cell[1] & 7) * 8 + (cell[2] & 7));
 }
 
-void check_range(const Vec3f& position, std::size_t index, double cell_size) {
-  const double limit = kLargestCell * cell_size;
-  // Negated, so that a NaN fails it too.
-  if (!(std::abs(double{position.x()}) <= limit && std::abs(double{position.y()}) <= limit &&
-        std::abs(double{position.z()}) <= limit)) {
-    throw ParticleError(
-        fmt::format("Particle {} at ({}, {}, {}) m is farther than 2^30 cells of {} m from the origin: "
-                    "check the units of the positions and the particle spacing.",
-                    index, position.x(), position.y(), position.z(), cell_size));
-  }
+bool is_within(const Vec3f& position, double limit) {
+  return std::abs(double{position.x()}) <= limit && std::abs(double{position.y()}) <= limit &&
+         std::abs(double{position.z()}) <= limit;
+}
+
+[[noreturn]] void throw_too_far(const Vec3f& position, std::size_t index, double cell_size) {
+  throw ParticleError(
+      fmt::format("Particle {} at ({}, {}, {}) m is farther than 2^30 cells of {} m from the origin: "
+                  "check the units of the positions and the particle spacing.",
+                  index, position.x(), position.y(), position.z(), cell_size));
 }
 
 /// Squared distance from a position to the cube that all particles of a tile lie in. The cube is a little too large:
@@ -65,19 +70,14 @@ ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size
   std::vector<std::uint32_t> tile_of_particle(count);
   std::vector<std::uint16_t> cell_of_particle(count);
 
-  // Counts per cell, in the order in which the tiles appear. Neighbours in the input are often neighbours in space.
-  const Tile* last = nullptr;
-  std::uint32_t slot = 0;
+  // Counts per cell, in the order in which the tiles appear.
+  const double limit = kLargestCell * cell_size;
   for (std::size_t n = 0; n < count; ++n) {
-    check_range(positions[n], n, cell_size_);
-    const LatticeCoord cell = cell_of(positions[n].cast<double>());
-    const LatticeCoord coord = tile_of(cell);
-    if (last == nullptr || !CoordEqual()(last->coord, coord)) {
-      const auto [entry, is_new] = tile_index_.try_emplace(coord, static_cast<std::uint32_t>(tiles_.size()));
-      if (is_new) tiles_.push_back({coord, {}});
-      slot = entry->second;
-      last = &tiles_[slot];
-    }
+    // Negated, so that a NaN fails it too.
+    if (!is_within(positions[n], limit)) throw_too_far(positions[n], n, cell_size);
+    const LatticeCoord cell = cell_at(positions[n].cast<double>(), cell_size);
+    const std::uint32_t slot = tile_index_.find_or_insert(tile_of(cell));
+    if (slot == tiles_.size()) tiles_.push_back({tile_of(cell), {}});
     tile_of_particle[n] = slot;
     cell_of_particle[n] = static_cast<std::uint16_t>(cell_in_tile(cell));
     ++tiles_[slot].begin[cell_of_particle[n]];
@@ -112,15 +112,14 @@ ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size
     std::array<std::uint32_t, kCellsPerTile + 1>& cells = tiles_[tile].begin;
     std::copy_backward(cells.begin(), cells.end() - 2, cells.end() - 1);
     cells[0] = sorted.empty() ? 0 : sorted.back().begin[kCellsPerTile];
-    tile_index_[tiles_[tile].coord] = static_cast<std::uint32_t>(sorted.size());
+    tile_index_.renumber(tiles_[tile].coord, static_cast<std::uint32_t>(sorted.size()));
     sorted.push_back(tiles_[tile]);
   }
   tiles_ = std::move(sorted);
 }
 
 LatticeCoord ParticleGrid::cell_of(const Vec3d& position) const {
-  return {floor_to_int(position.x() / cell_size_ + 0.5), floor_to_int(position.y() / cell_size_ + 0.5),
-          floor_to_int(position.z() / cell_size_ + 0.5)};
+  return cell_at(position, cell_size_);
 }
 
 std::uint32_t ParticleGrid::count(const LatticeCoord& cell) const {
@@ -128,11 +127,6 @@ std::uint32_t ParticleGrid::count(const LatticeCoord& cell) const {
   if (tile == nullptr) return 0;
   const std::uint32_t local = cell_in_tile(cell);
   return tile->begin[local + 1] - tile->begin[local];
-}
-
-const ParticleGrid::Tile* ParticleGrid::find_tile(const LatticeCoord& tile) const {
-  const auto entry = tile_index_.find(tile);
-  return entry == tile_index_.end() ? nullptr : &tiles_[entry->second];
 }
 
 std::size_t ParticleGrid::nearest(const Vec3d& position) const {

@@ -2,44 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "particle_surface_tracker/stages/distance_field.h"
+#include <cstdint>
+#include <utility>
 
 namespace particle_surface_tracker {
 
 namespace {
 
-/// Projects more and more of what is left over with larger and larger fields.
-class BandProjection {
+DistanceFields prepare_fields(const ImplicitSurface& surface, StageTimer& timer) {
+  timer.begin("distance_field");
+  return DistanceFields(surface);
+}
+
+/// Projects the vertices again that no field so far leads to the isosurface.
+class AbsentVertices {
  public:
-  BandProjection(const std::vector<Vec3f>& vertices, const std::vector<float>& delta, const ImplicitSurface& surface,
-                 const Parameters& parameters, StageTimer& timer)
-      : vertices_(vertices),
-        delta_(delta),
-        // The farthest node of a cubic stencil is a diagonal of two cells beyond the vertex.
-        stencil_reach_(2.0 * std::sqrt(3.0) * surface.dx),
-        parameters_(parameters),
-        timer_(timer),
-        fields_(surface) {}
+  AbsentVertices(const std::vector<Vec3f>& vertices, const std::vector<float>& delta, const Parameters& parameters,
+                 StageTimer& timer, Projection& result)
+      : vertices_(vertices), delta_(delta), parameters_(parameters), timer_(timer), result_(result) {}
 
-  Projection run(double reach, double max_reach) {
-    const SignedDistanceField stencils = fields_.at_stencils(vertices_, reach + stencil_reach_);
-    timer_.begin("projection");
-    result_ = project(vertices_, delta_, stencils, parameters_);
-    project_absent(
-        [&](const std::vector<Vec3f>& absent) { return fields_.on_ways(absent, max_reach + stencil_reach_); });
-    for (double wider_reach = reach;; wider_reach = std::min(2.0 * wider_reach, max_reach)) {
-      const bool has_absent = project_absent(
-          [&](const std::vector<Vec3f>& absent) { return fields_.around(absent, wider_reach + stencil_reach_); });
-      if (!has_absent || wider_reach >= max_reach) return std::move(result_);
-    }
-  }
-
- private:
-  /// Projects the vertices again that no field so far leads to the isosurface.
+  /// \param make_field makes the field for such vertices.
   /// \return false if there are none.
   template <typename MakeField>
-  bool project_absent(MakeField&& make_field) {
+  bool project_with(MakeField&& make_field) {
     std::vector<std::uint32_t> absent;
     std::vector<Vec3f> absent_vertices;
     std::vector<float> absent_delta;
@@ -62,22 +47,39 @@ class BandProjection {
     return true;
   }
 
+ private:
   const std::vector<Vec3f>& vertices_;
   const std::vector<float>& delta_;
-  double stencil_reach_;
   const Parameters& parameters_;
   StageTimer& timer_;
-  DistanceFields fields_;
-  Projection result_;
+  Projection& result_;
 };
 
 }  // namespace
 
-Projection project_within_band(const std::vector<Vec3f>& vertices, const std::vector<float>& delta,
-                               const ImplicitSurface& surface, double reach, double max_reach,
-                               const Parameters& parameters, StageTimer& timer) {
-  timer.begin("distance_field");
-  return BandProjection(vertices, delta, surface, parameters, timer).run(reach, max_reach);
+NarrowBand::NarrowBand(const ImplicitSurface& surface, const Parameters& parameters, StageTimer& timer)
+    : parameters_(parameters),
+      timer_(timer),
+      // The farthest node of a cubic stencil is a diagonal of two cells beyond the vertex.
+      stencil_reach_(2.0 * std::sqrt(3.0) * surface.dx),
+      fields_(prepare_fields(surface, timer)) {}
+
+Projection NarrowBand::project(const std::vector<Vec3f>& vertices, const std::vector<float>& delta, double reach,
+                               double max_reach) {
+  if (!stencils_) {
+    timer_.begin("distance_field");
+    stencils_ = fields_.at_stencils(vertices, reach + stencil_reach_);
+  }
+  timer_.begin("projection");
+  Projection result = particle_surface_tracker::project(vertices, delta, *stencils_, parameters_);
+  AbsentVertices absent(vertices, delta, parameters_, timer_, result);
+  absent.project_with(
+      [&](const std::vector<Vec3f>& positions) { return fields_.on_ways(positions, max_reach + stencil_reach_); });
+  for (double wider_reach = reach;; wider_reach = std::min(2.0 * wider_reach, max_reach)) {
+    const bool has_absent = absent.project_with(
+        [&](const std::vector<Vec3f>& positions) { return fields_.around(positions, wider_reach + stencil_reach_); });
+    if (!has_absent || wider_reach >= max_reach) return result;
+  }
 }
 
 }  // namespace particle_surface_tracker

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "band.h"
-
 namespace particle_surface_tracker {
 
 namespace {
@@ -39,15 +37,15 @@ std::vector<Range> delta_around(const TriangleMesh& mesh, const std::vector<std:
 }  // namespace
 
 double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, std::uint32_t first_new_id,
-                           std::uint32_t first_upkeep_id, const ImplicitSurface& surface, const Parameters& parameters,
-                           FrameReport& report, StageTimer& timer) {
+                           std::uint32_t first_upkeep_id, NarrowBand& band, const Parameters& parameters,
+                           FrameReport& report) {
   if (vertices.empty()) return 0.0;
   std::vector<Vec3f> positions;
   positions.reserve(vertices.size());
   for (const std::uint32_t v : vertices) positions.push_back(mesh.positions()[v]);
   const double r = parameters.particle_spacing;
-  const Projection measured = project_within_band(positions, std::vector<float>(positions.size(), 0.0f), surface,
-                                                  parameters.tau * r, parameters.max_reach * r, parameters, timer);
+  const Projection measured =
+      band.project(positions, std::vector<float>(positions.size(), 0.0f), parameters.tau * r, parameters.max_reach * r);
   const std::vector<Range> around = delta_around(mesh, vertices);
   const auto tolerance = static_cast<float>(parameters.tau * r);
   std::vector<float> deltas(vertices.size());

@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "band.h"
 #include "particle_surface_tracker/core/frame_report.h"
-#include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/parameters.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
-#include "stage_timer.h"
 
 namespace particle_surface_tracker {
 
@@ -20,9 +19,10 @@ namespace particle_surface_tracker {
 /// \param vertices increasing indices, with a blended δ.
 /// \param first_upkeep_id ids from here on, and ids below `first_new_id`, are vertices that upkeep made or moved; ids
 /// between the two are re-meshed ones.
+/// \param band φ of the frame.
 /// \return the largest |δ| of those vertices [m].
 double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, std::uint32_t first_new_id,
-                           std::uint32_t first_upkeep_id, const ImplicitSurface& surface, const Parameters& parameters,
-                           FrameReport& report, StageTimer& timer);
+                           std::uint32_t first_upkeep_id, NarrowBand& band, const Parameters& parameters,
+                           FrameReport& report);
 
 }  // namespace particle_surface_tracker

@@ -80,7 +80,7 @@ std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_
 
 double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, const ImplicitSurface& surface,
                        const Detection& detection, std::uint32_t original_vertices, const Parameters& parameters,
-                       UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
+                       NarrowBand& band, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
   const double r = parameters.particle_spacing;
   const double h = parameters.dx_gamma * r;
   const std::uint32_t first_new_id = mesh.next_id();
@@ -149,7 +149,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   report.upkeep.refused = kept.refused;
 
   return measure_fresh_delta(mesh, fresh_vertices(mesh, first_new_id, relaxed_ids, kept.fresh), first_new_id,
-                             first_upkeep_id, surface, parameters, report, timer);
+                             first_upkeep_id, band, parameters, report);
 }
 
 }  // namespace particle_surface_tracker

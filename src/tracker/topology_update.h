@@ -1,5 +1,6 @@
 #pragma once
 
+#include "band.h"
 #include "particle_surface_tracker/core/frame_report.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/parameters.h"
@@ -15,11 +16,12 @@ namespace particle_surface_tracker {
 /// \param particles of the frame [m].
 /// \param detection what the projection flagged; where else mesh and φ disagree is found here.
 /// \param original_vertices vertices of the first mesh have ids below it.
+/// \param band φ of the frame.
 /// \param memory kept from frame to frame.
 /// \param report receives the counts, and a warning where something could not be done.
 /// \return the largest |δ| of those vertices [m].
 double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, const ImplicitSurface& surface,
                        const Detection& detection, std::uint32_t original_vertices, const Parameters& parameters,
-                       UpkeepMemory& memory, FrameReport& report, StageTimer& timer);
+                       NarrowBand& band, UpkeepMemory& memory, FrameReport& report, StageTimer& timer);
 
 }  // namespace particle_surface_tracker

@@ -121,9 +121,9 @@ struct Tracker::State {
     next->surface = std::move(surface);
     next->original_vertices = next->mesh.next_id();
     std::fill(next->mesh.delta().begin(), next->mesh.delta().end(), 0.0f);
-    const Projection measured =
-        project_within_band(next->mesh.positions(), next->mesh.delta(), *next->surface, 4.0 * smallest_reach(),
-                            std::max(kInitialReach * r(), 4.0 * smallest_reach()), parameters, timer);
+    const Projection measured = NarrowBand(*next->surface, parameters, timer)
+                                    .project(next->mesh.positions(), next->mesh.delta(), 4.0 * smallest_reach(),
+                                             std::max(kInitialReach * r(), 4.0 * smallest_reach()));
     next->mesh.delta() = measured.distances;
     const auto lost = std::count_if(measured.status.begin(), measured.status.end(),
                                     [](ProjectionStatus status) { return status != ProjectionStatus::kFound; });
@@ -159,11 +159,10 @@ struct Tracker::State {
   }
 
   /// Projects the advected vertices and flags those that jump.
-  void project_vertices(Tracked& next, FrameReport& report, StageTimer& timer) const {
+  void project_vertices(Tracked& next, NarrowBand& band, FrameReport& report) const {
     const double reach = std::max(parameters.band_factor * next.band, smallest_reach());
     const double max_reach = std::max(parameters.max_reach * r(), reach);
-    const Projection projection = project_within_band(next.mesh.positions(), next.mesh.delta(), *next.surface, reach,
-                                                      max_reach, parameters, timer);
+    const Projection projection = band.project(next.mesh.positions(), next.mesh.delta(), reach, max_reach);
     next.detection = apply_projection(next.mesh, projection, parameters);
     report.flagged_vertices = next.detection.flagged_vertices.size();
     report.unreached_vertices = next.detection.unreached_vertices;
@@ -172,13 +171,14 @@ struct Tracker::State {
   }
 
   /// Splits and merges the mesh, and keeps its triangles in shape. What was flagged and is still there stays flagged.
-  void match_topology(Tracked& next, const ParticleFrame& frame, FrameReport& report, StageTimer& timer) {
+  void match_topology(Tracked& next, const ParticleFrame& frame, NarrowBand& band, FrameReport& report,
+                      StageTimer& timer) {
     std::vector<std::uint32_t> flagged_ids;
     flagged_ids.reserve(next.detection.flagged_vertices.size());
     for (const std::uint32_t v : next.detection.flagged_vertices) flagged_ids.push_back(next.mesh.ids()[v]);
-    const double new_delta =
-        update_topology(next.mesh, frame.positions, *next.surface, next.detection,
-                        static_cast<std::uint32_t>(next.original_vertices), parameters, upkeep_memory, report, timer);
+    const double new_delta = update_topology(next.mesh, frame.positions, *next.surface, next.detection,
+                                             static_cast<std::uint32_t>(next.original_vertices), parameters, band,
+                                             upkeep_memory, report, timer);
     next.band = std::max(next.band, new_delta);
     next.detection.flagged_vertices = vertices_of(next.mesh, flagged_ids);
   }
@@ -242,9 +242,10 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
       thin_stretched_detail(next->mesh, state_->tracked->mesh.positions());
     }
     next->surface = make_implicit_surface(frame, state_->parameters, timer);
-    state_->project_vertices(*next, report, timer);
+    NarrowBand band(*next->surface, state_->parameters, timer);
+    state_->project_vertices(*next, band, report);
     if (state_->parameters.topology == TopologyMode::kMatch) {
-      state_->match_topology(*next, frame, report, timer);
+      state_->match_topology(*next, frame, band, report, timer);
     }
     decay_delta(next->mesh, 1e-9 * static_cast<double>(frame.stamp_ns - next->particles.stamp_ns), state_->parameters);
     next->particles = frame;

@@ -70,7 +70,8 @@ TEST(FootPoint, TheDistanceInACreaseIsThatToAWall) {
     const Crease crease(degrees * std::acos(-1.0) / 180.0);
     const SignedDistanceField field = crease.field();
     const std::vector<Vec3f> places = crease.places(2000);
-    SurfaceSearch search(field, {0.35f, 0.005f * static_cast<float>(dx), 100});
+    const FieldLeaves leaves(field);
+    SurfaceSearch search(field, leaves, {0.35f, 0.005f * static_cast<float>(dx), 100});
     std::vector<SurfacePoint> found(places.size());
     search.find(places, 0, places.size(), found);
     EXPECT_GE(count_misses(crease, places, found), 10u) << degrees << " degrees: a search alone must be seen to miss";
@@ -82,7 +83,8 @@ TEST(FootPoint, TheDistanceInACreaseIsThatToAWall) {
 TEST(FootPoint, WhatIsAFootAlreadyStaysBitForBit) {
   const SignedDistanceField field = test::make_field(Vec3d::Constant(-1.0), Vec3d::Constant(1.0), dx, 0.35,
                                                      [](const Vec3d& x) { return x.norm() - 0.6; });
-  SurfaceSearch search(field, {0.35f, 0.005f * static_cast<float>(dx), 100});
+  const FieldLeaves leaves(field);
+  SurfaceSearch search(field, leaves, {0.35f, 0.005f * static_cast<float>(dx), 100});
   const std::vector<Vec3f> vertices = {{0.65f, 0.1f, 0.0f}, {0.1f, 0.5f, 0.2f}, {-0.4f, 0.4f, -0.4f}};
   std::vector<SurfacePoint> found(vertices.size());
   search.find(vertices, 0, vertices.size(), found);

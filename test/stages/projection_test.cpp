@@ -47,7 +47,7 @@ Sample sample(const SignedDistanceField& field, const Vec3d& position, int lane)
   const openvdb::Coord cell(static_cast<int>(std::floor(lattice.x())), static_cast<int>(std::floor(lattice.y())),
                             static_cast<int>(std::floor(lattice.z())));
   TricubicBatch batch{};
-  FieldStencil(field).load(cell, &batch.nodes[0][lane], TricubicBatch::lanes);
+  FieldStencil(FieldLeaves(field)).load(cell, &batch.nodes[0][lane], TricubicBatch::lanes);
   for (int axis = 0; axis < 3; ++axis) batch.place[axis][lane] = static_cast<float>(lattice[axis] - cell[axis]);
   active_tricubic_kernel()(batch, StepLength{1.0f, 1.0f, 0.0f});
   return {batch.value[lane], Vec3d(batch.gradient[0][lane], batch.gradient[1][lane], batch.gradient[2][lane]) / dx};
@@ -85,8 +85,9 @@ TEST(TricubicKernel, StepsAreLongNextToTheSurfaceOnly) {
   const auto inverse = static_cast<float>(1.0 / dx);
   const StepLength step_length = {0.35f * inverse, 0.8f * inverse, static_cast<float>(0.1 * dx)};
   TricubicBatch batch{};
+  const FieldLeaves leaves(plane);
   for (int l = 0; l < TricubicBatch::lanes; ++l) {
-    FieldStencil(plane).load(openvdb::Coord(0), &batch.nodes[0][l], TricubicBatch::lanes);
+    FieldStencil(leaves).load(openvdb::Coord(0), &batch.nodes[0][l], TricubicBatch::lanes);
     batch.place[0][l] = static_cast<float>(l) / TricubicBatch::lanes;
   }
   active_tricubic_kernel()(batch, step_length);
@@ -94,6 +95,25 @@ TEST(TricubicKernel, StepsAreLongNextToTheSurfaceOnly) {
     const float distance = batch.place[0][l] - 0.25f;
     const float step = (std::abs(distance) < 0.1f ? 0.8f : 0.35f) * distance;
     EXPECT_NEAR(batch.next[0][l], batch.place[0][l] - step, 1e-5f) << l;
+    EXPECT_EQ(batch.cells[0][l], 0) << l;
+  }
+}
+
+TEST(TricubicKernel, APlaceIsWithinItsCellAfterAStepThatLeavesIt) {
+  const SignedDistanceField plane = test::make_field(Vec3d::Constant(-1), Vec3d::Constant(1), dx, 100.0,
+                                                     [](const Vec3d& p) { return p.x() - 0.5 * dx; });
+  const FieldLeaves leaves(plane);
+  TricubicBatch batch{};
+  for (int l = 0; l < TricubicBatch::lanes; ++l) {
+    FieldStencil(leaves).load(openvdb::Coord(0), &batch.nodes[0][l], TricubicBatch::lanes);
+    batch.place[0][l] = (static_cast<float>(l) + 0.25f) / TricubicBatch::lanes;
+  }
+  const auto far = static_cast<float>(8.0 / dx);
+  active_tricubic_kernel()(batch, {far, far, 0.0f});
+  for (int l = 0; l < TricubicBatch::lanes; ++l) {
+    const float next = batch.place[0][l] - 8.0f * (batch.place[0][l] - 0.5f);
+    EXPECT_EQ(batch.cells[0][l], static_cast<int>(std::floor(next))) << l;
+    EXPECT_NEAR(batch.next[0][l], next - std::floor(next), 1e-4f) << l;
   }
 }
 

@@ -3,15 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "particle_surface_tracker/core/lattice_index.h"
 #include "particle_surface_tracker/core/types.h"
 
 namespace particle_surface_tracker {
-
-/// Integer coordinates of a cell or node of a world-anchored lattice.
-using LatticeCoord = std::array<std::int32_t, 3>;
 
 /// Particles sorted into the cells of a sparse, world-anchored lattice, for neighbour searches.
 ///
@@ -99,7 +96,10 @@ class ParticleGrid {
   const std::vector<Tile>& tiles() const { return tiles_; }
 
   /// The tile with these coordinates, or null.
-  const Tile* find_tile(const LatticeCoord& tile) const;
+  const Tile* find_tile(const LatticeCoord& tile) const {
+    const std::uint32_t number = tile_index_.find(tile);
+    return number == LatticeIndex::none ? nullptr : &tiles_[number];
+  }
 
   /// Index (into the input) of the particle nearest to a position; of several, the one with the lowest index. Looks at
   /// the list of tiles and then only into those that can hold it, however far away the particles are.
@@ -141,27 +141,11 @@ class ParticleGrid {
     }
   }
 
-  struct CoordHash {
-    std::size_t operator()(const LatticeCoord& c) const {
-      std::uint64_t h = static_cast<std::uint32_t>(c[0]);
-      h = h * 0x9E3779B97F4A7C15ull + static_cast<std::uint32_t>(c[1]);
-      h = h * 0x9E3779B97F4A7C15ull + static_cast<std::uint32_t>(c[2]);
-      return static_cast<std::size_t>(h ^ (h >> 29));
-    }
-  };
-
-  // The comparison of arrays is a call of memcmp.
-  struct CoordEqual {
-    bool operator()(const LatticeCoord& a, const LatticeCoord& b) const {
-      return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-    }
-  };
-
   double cell_size_ = 1.0;
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;
   std::vector<Tile> tiles_;
-  std::unordered_map<LatticeCoord, std::uint32_t, CoordHash, CoordEqual> tile_index_;
+  LatticeIndex tile_index_;
 };
 
 }  // namespace particle_surface_tracker

@@ -104,7 +104,17 @@ Matrix3d clamp_stretches(const Matrix3d& f, double limit) {
   return u * stretches.asDiagonal() * svd.matrixV().transpose();
 }
 
+bool spreads_in_all_directions(const CentralMoments& m, double smallest_variance) {
+  return is_positive_definite(m.covariance - smallest_variance * Matrix3d::Identity());
+}
+
 }  // namespace
+
+bool is_motion_settled(const MotionSums& sums, double r, const Parameters& parameters) {
+  if (!(sums.weight() > 0.0f)) return false;
+  const CentralMoments m = central_moments(sums);
+  return m.mean_square == 0.0 || spreads_in_all_directions(m, parameters.affine_rank_threshold * r * r);
+}
 
 double settling_factor(int neighbors) {
   return neighbors / std::max(neighbors - kFitUnknowns, kLeastFreedom);
@@ -125,7 +135,7 @@ AffineFit fit_affine_motion(const MotionSums& sums, double r, const Parameters& 
   const Vec3d average = sums.reference.cast<double>() + m.displacement;
   if (m.mean_square == 0.0) return {average, 1.0, 0.0, 3};  // rest stays exact
   const double smallest_variance = parameters.affine_rank_threshold * r * r;
-  const bool full = is_positive_definite(m.covariance - smallest_variance * Matrix3d::Identity());
+  const bool full = spreads_in_all_directions(m, smallest_variance);
   int rank = 3;
   const Matrix3d fitted = full ? full_gradient(m) : deficient_gradient(m, smallest_variance, rank);
   const Matrix3d f = clamp_stretches(fitted, parameters.affine_max_stretch);

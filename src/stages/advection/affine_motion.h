@@ -43,6 +43,10 @@ struct AffineFit {
 /// \param r particle spacing [m].
 AffineFit fit_affine_motion(const MotionSums& sums, double r, const Parameters& parameters);
 
+/// True if the particles spread in all directions by more than the rank threshold, or all rest: a fit to more of them
+/// would tell no more.
+bool is_motion_settled(const MotionSums& sums, double r, const Parameters& parameters);
+
 /// How much the unexplained variance of a fit counts by the number of particles that settle it: with as few particles
 /// as unknowns any motion fits.
 double settling_factor(int neighbors);

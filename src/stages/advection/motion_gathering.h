@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "motion_kernel.h"
@@ -7,12 +8,6 @@
 #include "particle_surface_tracker/stages/advection.h"
 
 namespace particle_surface_tracker {
-
-/// A box relative to the origin of a group of vertices [m].
-struct GroupBox {
-  Vec3f lower = Vec3f::Zero();
-  Vec3f upper = Vec3f::Zero();
-};
 
 /// Particles with their displacements, sorted into the cells of a grid.
 class SortedMotion {
@@ -35,10 +30,12 @@ class SortedMotion {
 /// The particles around a group of vertices, ready for the sums. One object per thread.
 class Neighborhood {
  public:
-  /// Takes the particles that are nearer than `radius` to the box, in the order of the grid.
+  /// Takes the particles that are nearer than `radius` to a box, in the order of the grid.
   /// \param origin [m]; in single precision, so that places relative to it lose next to nothing however far they are
   /// from the origin of the world.
-  void gather(const SortedMotion& motion, const Vec3f& origin, const GroupBox& box, double radius);
+  /// \param lower, upper ends of the box, relative to the origin [m].
+  void gather(const SortedMotion& motion, const MotionKernel& kernel, const Vec3f& origin, const Vec3f& lower,
+              const Vec3f& upper, double radius);
 
   /// Sums over the particles for every lane of a batch (Sec. 4, poly6).
   void sum(const MotionKernel& kernel, double radius, MotionBatch& batch);
@@ -49,7 +46,7 @@ class Neighborhood {
   const Vec3f& reference() const { return reference_; }
 
  private:
-  Eigen::ArrayXf squared_beyond_;  // How far the particles of one range are beyond the box [m²].
+  std::vector<std::uint32_t> near_;  // of the sorted particles
   std::vector<NearParticle> particles_;
   std::size_t count_ = 0;
   Vec3f reference_ = Vec3f::Zero();

@@ -1,5 +1,6 @@
 #include "motion_kernel.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/per_instruction_set.h"
@@ -38,6 +39,46 @@ PST_INLINE void load(const float* from, Lanes& lanes) {
 template <class Lanes, class Value>
 PST_INLINE void store(const Lanes& lanes, Value* to) {
   std::memcpy(to, &lanes, sizeof(lanes));
+}
+
+/// As many values as there are lanes, or fewer where the array ends.
+template <class Floats>
+PST_INLINE void load_within(const float* values, std::size_t first, std::size_t size, Floats& lanes) {
+  if (first + sizeof(lanes) / sizeof(float) <= size) {
+    load(values + first, lanes);
+  } else {
+    lanes = Floats{};
+    std::memcpy(&lanes, values + first, (size - first) * sizeof(float));
+  }
+}
+
+template <class Width>
+PST_INLINE std::size_t select_near(const Coordinates& particles, std::size_t begin, std::size_t end,
+                                   const GroupBox& box, std::uint32_t* near) {
+  using Floats = typename Width::Floats;
+  std::size_t count = 0;
+  for (std::size_t first = begin; first < end; first += Width::count) {
+    Floats squared[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      Floats place;
+      load_within(particles.axis[axis], first, particles.size, place);
+      place -= box.origin[axis];
+      const Floats below = box.lower[axis] - place;
+      const Floats above = place - box.upper[axis];
+      const Floats farther = below > above ? below : above;
+      const Floats beyond = farther > 0.0f ? farther : Floats{};
+      squared[axis] = beyond * beyond;
+    }
+    std::int32_t is_near[Width::count];
+    store(squared[0] + squared[1] + squared[2] < box.squared_reach, is_near);
+    // Writes every particle and steps on only where it counts: cheaper than branches that are hard to predict.
+    const std::size_t lanes = std::min<std::size_t>(Width::count, end - first);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      near[count] = static_cast<std::uint32_t>(first + lane);
+      count += static_cast<std::size_t>(-is_near[lane]);
+    }
+  }
+  return count;
 }
 
 /// Sums for the lanes from `first` on. Two passes, so that each keeps its sums in registers.
@@ -195,7 +236,11 @@ template <class Width>
 PST_INLINE void sum_all(const NearParticle* particles, std::size_t count, float inverse_squared_radius, float* weights,
                         MotionBatch& batch) {
   for (int first = 0; first < batch.used; first += Width::count) {
-    sum_lanes<Width>(particles, count, inverse_squared_radius, weights, first, batch);
+    if (Width::count == 16 && batch.used <= first + Eight::count) {
+      sum_lanes<Eight>(particles, count, inverse_squared_radius, weights, first, batch);
+    } else {
+      sum_lanes<Width>(particles, count, inverse_squared_radius, weights, first, batch);
+    }
   }
 }
 
@@ -205,6 +250,10 @@ PST_INLINE void fit_all(const PlainFit& bounds, MotionBatch& batch) {
 }
 
 #define PST_MOTION_KERNEL(name, Width, target)                                                           \
+  target std::size_t select_##name(const Coordinates& particles, std::size_t begin, std::size_t end,     \
+                                   const GroupBox& box, std::uint32_t* near) {                           \
+    return select_near<Width>(particles, begin, end, box, near);                                         \
+  }                                                                                                      \
   target void sum_##name(const NearParticle* particles, std::size_t count, float inverse_squared_radius, \
                          float* weights, MotionBatch& batch) {                                           \
     sum_all<Width>(particles, count, inverse_squared_radius, weights, batch);                            \
@@ -220,8 +269,9 @@ PST_MOTION_KERNEL(avx512, Sixteen, __attribute__((target("avx512f"))))
 }  // namespace
 
 const MotionKernel& active_motion_kernel() {
-  static constexpr PerInstructionSet<MotionKernel> kernels = {
-      {sum_baseline, fit_baseline}, {sum_avx2, fit_avx2}, {sum_avx512, fit_avx512}};
+  static constexpr PerInstructionSet<MotionKernel> kernels = {{select_baseline, sum_baseline, fit_baseline},
+                                                              {select_avx2, sum_avx2, fit_avx2},
+                                                              {select_avx512, sum_avx512, fit_avx512}};
   return kernels.active();
 }
 

@@ -8,6 +8,20 @@
 
 namespace particle_surface_tracker {
 
+/// The particles that matter to a group of vertices: those near a box around them.
+struct GroupBox {
+  std::array<float, 3> origin;  ///< Of the group [m].
+  std::array<float, 3> lower;   ///< Relative to the origin [m].
+  std::array<float, 3> upper;
+  float squared_reach;  ///< Particles nearer to the box than its root are near [m²].
+};
+
+/// Coordinates of particles, one array each [m].
+struct Coordinates {
+  std::array<const float*, 3> axis;
+  std::size_t size;
+};
+
 /// A particle near a group of vertices.
 struct NearParticle {
   std::array<float, 3> position;      ///< Relative to the group's origin [m].
@@ -39,8 +53,14 @@ struct PlainFit {
   float largest_squared_gradient;  ///< Squared Frobenius norm of A up to which no stretch can be beyond its bound.
 };
 
-/// Both for one set of instructions.
+/// All for one set of instructions.
 struct MotionKernel {
+  /// Lists those of the particles [begin, end) that are near a box, in their order.
+  /// \param near has room for as many as there are.
+  /// \return how many.
+  std::size_t (*select)(const Coordinates& particles, std::size_t begin, std::size_t end, const GroupBox& box,
+                        std::uint32_t* near);
+
   /// Sums over the particles, weighted by poly6 without its constant, which cancels.
   /// \param weights scratch for MotionBatch::lanes values per particle.
   void (*sum)(const NearParticle* particles, std::size_t count, float inverse_squared_radius, float* weights,

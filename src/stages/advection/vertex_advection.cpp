@@ -98,12 +98,13 @@ void VertexAdvection::advect_group(const LatticeCoord& cell, const std::uint32_t
 }
 
 void VertexAdvection::gather(const Vec3f& center, double radius) {
-  GroupBox box{pending_.front().position, pending_.front().position};
+  Vec3f lower = pending_.front().position;
+  Vec3f upper = lower;
   for (const Pending& pending : pending_) {
-    box.lower = box.lower.cwiseMin(pending.position);
-    box.upper = box.upper.cwiseMax(pending.position);
+    lower = lower.cwiseMin(pending.position);
+    upper = upper.cwiseMax(pending.position);
   }
-  around_.gather(motion_, center, box, radius * r_);
+  around_.gather(motion_, kernel_, center, lower, upper, radius * r_);
 }
 
 void VertexAdvection::evaluate(std::size_t first, double radius) {
@@ -136,6 +137,7 @@ bool VertexAdvection::settle(int lane, double radius, const Vec3d& vertex, Pendi
       return true;
     }
   }
+  if (radius < limit && !is_motion_settled(around_.sums_of(batch_, lane), r_, parameters_)) return false;
   const AffineFit fit = fit_affine_motion(around_.sums_of(batch_, lane), r_, parameters_);
   const double reach = fit.rank == 1 ? kThreadReach * limit : limit;
   if (fit.rank < 3 && radius < reach) return false;

@@ -23,29 +23,8 @@ constexpr std::int32_t kFirstCode = kCodeOffset * (kCodeStride[0] + kCodeStride[
 
 alignas(64) constexpr float kIota[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-#define PST_KERNEL_TARGET
-#define PST_KERNEL_LANES 4
-namespace baseline {
-#include "cell_kernel_body.inc"
-}
-#undef PST_KERNEL_TARGET
-#undef PST_KERNEL_LANES
-
-#define PST_KERNEL_TARGET __attribute__((target("avx2")))
-#define PST_KERNEL_LANES 8
-namespace avx2 {
-#include "cell_kernel_body.inc"
-}
-#undef PST_KERNEL_TARGET
-#undef PST_KERNEL_LANES
-
-#define PST_KERNEL_TARGET __attribute__((target("avx512f")))
-#define PST_KERNEL_LANES 16
-namespace avx512 {
-#include "cell_kernel_body.inc"
-}
-#undef PST_KERNEL_TARGET
-#undef PST_KERNEL_LANES
+#define PST_KERNEL_BODY "stages/distance_field/cell_kernel_body.inc"
+#include "core/kernel_variants.inc"
 
 }  // namespace
 

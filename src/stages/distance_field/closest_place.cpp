@@ -84,6 +84,7 @@ void ClosestPlaceSearch::find_leaves(const openvdb::Coord& leaf_origin) {
 
 const std::vector<ClosestPlaceSearch::Disc>& ClosestPlaceSearch::discs_of(const SurfaceCells::Leaf& leaf) {
   std::vector<Disc>& discs = discs_[&leaf - cells_.leaves().data()];
+  discs.reserve(leaf.end - leaf.begin);
   for (std::uint32_t c = leaf.begin + static_cast<std::uint32_t>(discs.size()); c != leaf.end; ++c) {
     discs.push_back(make_disc(c, leaf.origin));
   }

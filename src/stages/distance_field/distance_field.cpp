@@ -24,9 +24,15 @@ constexpr int kWayWidth = 1;
 /// The least that a band around a position holds along each axis [cells].
 constexpr double kSmallestBand = 4.0;
 
-void insert_cut_cells(const ImplicitSurface& surface, NodeMasks& cells) {
-  const std::vector<CutCell>& cut = surface.triangulation.cells;
-  for (std::size_t c = 0; c + 1 < cut.size(); ++c) cells.insert(cut[c].origin);
+void insert_cut_cells(const SurfaceCells& surface, NodeMasks& cells) {
+  const std::vector<CutCell>& cut = surface.surface().triangulation.cells;
+  for (const SurfaceCells::Leaf& leaf : surface.leaves()) {
+    LeafWords& words = cells.words_at(leaf.origin);
+    for (std::uint32_t c = leaf.begin; c != leaf.end; ++c) {
+      const openvdb::Coord at = cut[c].origin - leaf.origin;
+      words[at.x()] |= std::uint64_t{1} << (8 * at.y() + at.z());
+    }
+  }
 }
 
 void insert_cells_of(const std::vector<Vec3f>& positions, double dx, NodeMasks& cells) {
@@ -55,7 +61,7 @@ DistanceFields::~DistanceFields() = default;
 
 SignedDistanceField DistanceFields::at_stencils(const std::vector<Vec3f>& positions, double reach) const {
   NodeMasks wanted;
-  insert_cut_cells(surface_, wanted);
+  insert_cut_cells(*cells_, wanted);
   insert_cells_of(positions, surface_.dx, wanted);
   wanted.dilate(kStencilDown, kStencilUp);
   return make_field(*cells_, wanted, reach);
@@ -85,7 +91,7 @@ SignedDistanceField DistanceFields::around(const std::vector<Vec3f>& positions, 
 
 SignedDistanceField DistanceFields::everywhere(double reach) const {
   NodeMasks wanted;
-  insert_cut_cells(surface_, wanted);
+  insert_cut_cells(*cells_, wanted);
   const int width = static_cast<int>(std::ceil(reach / surface_.dx));
   wanted.dilate(width, width + 1);
   return make_field(*cells_, wanted, reach);

@@ -22,9 +22,12 @@ __m128 lanes_of(std::uint64_t bits) {
 template <typename Test>
 LeafWords nodes_where(const float* values, Test&& test) {
   LeafWords nodes{};
-  for (int n = 0; n < 512; n += 4) {
-    const int found = _mm_movemask_ps(test(_mm_loadu_ps(values + n)));
-    nodes[n >> 6] |= static_cast<std::uint64_t>(found) << (n & 63);
+  const auto test_four = [&](int n) { return _mm_castps_si128(test(_mm_loadu_ps(values + n))); };
+  for (int n = 0; n < 512; n += 16) {
+    const __m128i low = _mm_packs_epi32(test_four(n), test_four(n + 4));
+    const __m128i high = _mm_packs_epi32(test_four(n + 8), test_four(n + 12));
+    const auto found = static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(low, high)));
+    nodes[n >> 6] |= std::uint64_t{found} << (n & 63);
   }
   return nodes;
 }

@@ -28,29 +28,8 @@ constexpr double kTrisection[kTrisectionDegree + 1] = {
     1.00000000016,    1.154700499,     -0.222220619501,   0.106890885732,   -0.0656260625956,  0.0446398189772,
     -0.0305599763071, 0.0187562614456, -0.00897058916069, 0.00280497478988, -0.000415192631243};
 
-#define PST_KERNEL_TARGET
-#define PST_KERNEL_LANES 4
-namespace baseline {
-#include "implicit_kernel_body.inc"
-}
-#undef PST_KERNEL_TARGET
-#undef PST_KERNEL_LANES
-
-#define PST_KERNEL_TARGET __attribute__((target("avx2")))
-#define PST_KERNEL_LANES 8
-namespace avx2 {
-#include "implicit_kernel_body.inc"
-}
-#undef PST_KERNEL_TARGET
-#undef PST_KERNEL_LANES
-
-#define PST_KERNEL_TARGET __attribute__((target("avx512f")))
-#define PST_KERNEL_LANES 16
-namespace avx512 {
-#include "implicit_kernel_body.inc"
-}
-#undef PST_KERNEL_TARGET
-#undef PST_KERNEL_LANES
+#define PST_KERNEL_BODY "stages/implicit_function/implicit_kernel_body.inc"
+#include "core/kernel_variants.inc"
 
 }  // namespace
 

@@ -51,16 +51,6 @@ bool any(const NodeMask& mask) {
   return std::any_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word != 0; });
 }
 
-void NodeBlock::accept_value(int place, float value) {
-  const int x = place >> 6;
-  const std::uint64_t bit = std::uint64_t{1} << (place & 63);
-  values[place] = value;
-  negative[x] = value < 0.0f ? negative[x] | bit : negative[x] & ~bit;
-  known[x] |= bit;
-  evaluated[x] |= bit;
-  requested[x] &= ~bit;
-}
-
 NodeMask corners_in_block(const NodeMask& cells, const LatticeCoord& offset) {
   NodeMask nodes = {};
   for (int x = 0; x < 8; ++x) {
@@ -75,18 +65,13 @@ NodeMask corners_in_block(const NodeMask& cells, const LatticeCoord& offset) {
 }
 
 std::uint32_t NodeLattice::touch(const LatticeCoord& coord) {
-  const auto [entry, is_new] = index_.try_emplace(coord, static_cast<std::uint32_t>(blocks_.size()));
-  if (is_new) {
+  const std::uint32_t number = index_.find_or_insert(coord);
+  if (number == blocks_.size()) {
     blocks_.emplace_back();
     blocks_.back().coord = coord;
     if (presume_outside_) blocks_.back().known.fill(kAll);
   }
-  return entry->second;
-}
-
-const NodeBlock* NodeLattice::find(const LatticeCoord& coord) const {
-  const auto entry = index_.find(coord);
-  return entry == index_.end() ? nullptr : &blocks_[entry->second];
+  return number;
 }
 
 NodeMask NodeLattice::mixed_cells(std::uint32_t index) const {
@@ -115,9 +100,10 @@ std::vector<NodeMask> NodeLattice::corners_of_mixed_cells() const {
     for (int n = 0; n < 8; ++n) {
       const LatticeCoord offset = {(n >> 2) & 1, (n >> 1) & 1, n & 1};
       const NodeMask in_block = corners_in_block(mixed, offset);
-      const auto target = index_.find(add(blocks_[index].coord, offset));
-      if (!any(in_block) || target == index_.end()) continue;
-      for (int x = 0; x < 8; ++x) corners[target->second][x] |= in_block[x];
+      if (!any(in_block)) continue;
+      const std::uint32_t target = index_.find(add(blocks_[index].coord, offset));
+      if (target == LatticeIndex::none) continue;
+      for (int x = 0; x < 8; ++x) corners[target][x] |= in_block[x];
     }
   }
   return corners;
@@ -149,9 +135,9 @@ std::vector<std::uint32_t> NodeLattice::blocks_with_cells_around(const std::vect
     for (int n = 1; n < 8; ++n) {
       const LatticeCoord offset = {-((n >> 2) & 1), -((n >> 1) & 1), -(n & 1)};
       const LatticeCoord coord = add(blocks_[index].coord, offset);
-      const auto entry = index_.find(coord);
-      if (entry != index_.end()) {
-        around.push_back(entry->second);
+      const std::uint32_t number = index_.find(coord);
+      if (number != LatticeIndex::none) {
+        around.push_back(number);
       } else if (touches_lower_side(blocks_[index].negative, offset)) {
         around.push_back(touch(coord));
       }

@@ -3,10 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
-#include "particle_surface_tracker/core/particle_grid.h"
+#include "particle_surface_tracker/core/lattice_index.h"
 
 namespace particle_surface_tracker::implicit {
 
@@ -23,7 +22,15 @@ struct NodeBlock {
   std::array<float, 512> values;
 
   /// Stores the value of a node (64 x + 8 y + z), which is not requested any more.
-  void accept_value(int place, float value);
+  void accept_value(int place, float value) {
+    const int x = place >> 6;
+    const std::uint64_t bit = std::uint64_t{1} << (place & 63);
+    values[place] = value;
+    negative[x] = value < 0.0f ? negative[x] | bit : negative[x] & ~bit;
+    known[x] |= bit;
+    evaluated[x] |= bit;
+    requested[x] &= ~bit;
+  }
 };
 
 /// True where any bit is set.
@@ -43,7 +50,10 @@ class NodeLattice {
   std::uint32_t touch(const LatticeCoord& coord);
 
   /// The block with these coordinates, or null.
-  const NodeBlock* find(const LatticeCoord& coord) const;
+  const NodeBlock* find(const LatticeCoord& coord) const {
+    const std::uint32_t number = index_.find(coord);
+    return number == LatticeIndex::none ? nullptr : &blocks_[number];
+  }
 
   /// The mixed cells of the block with this index.
   NodeMask mixed_cells(std::uint32_t index) const;
@@ -62,25 +72,9 @@ class NodeLattice {
   std::vector<std::uint32_t> blocks_with_cells_around(const std::vector<std::uint32_t>& blocks);
 
  private:
-  struct CoordHash {
-    std::size_t operator()(const LatticeCoord& c) const {
-      std::uint64_t h = static_cast<std::uint32_t>(c[0]);
-      h = h * 0x9E3779B97F4A7C15ull + static_cast<std::uint32_t>(c[1]);
-      h = h * 0x9E3779B97F4A7C15ull + static_cast<std::uint32_t>(c[2]);
-      return static_cast<std::size_t>(h ^ (h >> 29));
-    }
-  };
-
-  /// The comparison of arrays calls the C library.
-  struct CoordEqual {
-    bool operator()(const LatticeCoord& a, const LatticeCoord& b) const {
-      return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-    }
-  };
-
   bool presume_outside_;
   std::vector<NodeBlock> blocks_;
-  std::unordered_map<LatticeCoord, std::uint32_t, CoordHash, CoordEqual> index_;
+  LatticeIndex index_;
 };
 
 /// The nodes of a block at the corners of some of the cells of another: offset (0 or 1 along each axis) leads from the

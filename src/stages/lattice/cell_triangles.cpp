@@ -27,33 +27,53 @@ std::uint32_t place_in_leaf(const Coord& cell) {
   return static_cast<std::uint32_t>((place.x() * kWidth + place.y()) * kWidth + place.z());
 }
 
-/// A triangle meets a cell of a leaf.
-struct Meeting {
-  std::uint32_t leaf;
-  std::uint32_t place;
-  std::uint32_t triangle;
-};
-
-/// The cells that some triangles meet, with leaves numbered in the order of their first occurrence.
+/// The cells that the triangles of a block meet, with leaves numbered in the order of their first occurrence.
 class Meetings {
  public:
-  void append(const Coord& cell, std::uint32_t triangle) {
-    const Coord leaf = leaf_of(cell);
-    if (leaves.empty() || leaf != leaves[last_]) {
-      last_ = index_.find(leaf);
-      if (last_ == LeafIndex::none) {
-        last_ = static_cast<std::uint32_t>(leaves.size());
-        index_.insert(leaf, last_);
-        leaves.push_back(leaf);
-      }
-    }
-    all.push_back({last_, place_in_leaf(cell), triangle});
+  void reserve() {
+    constexpr std::size_t cells_per_triangle = 6;
+    cells.reserve(cells_per_triangle * kTrianglesPerBlock);
+    ends.reserve(kTrianglesPerBlock);
   }
 
+  void append(const Coord& cell) { cells.push_back(kCellsPerLeaf * number_of(leaf_of(cell)) + place_in_leaf(cell)); }
+
+  void append_box(const Coord& lower, const Coord& upper) {
+    if (leaf_of(lower) != leaf_of(upper)) {
+      for_each_in(lower, upper, [&](const Coord& cell) { append(cell); });
+      return;
+    }
+    const std::uint32_t first = kCellsPerLeaf * number_of(leaf_of(lower));
+    for_each_in(lower, upper, [&](const Coord& cell) { cells.push_back(first + place_in_leaf(cell)); });
+  }
+
+  void end_triangle() { ends.push_back(static_cast<std::uint32_t>(cells.size())); }
+
   std::vector<Coord> leaves;
-  std::vector<Meeting> all;
+  std::vector<std::uint32_t> cells;  ///< Number of the leaf times kCellsPerLeaf, plus the place; triangle by triangle.
+  std::vector<std::uint32_t> ends;   ///< Where those of each triangle end.
 
  private:
+  template <typename Visit>
+  static void for_each_in(const Coord& lower, const Coord& upper, Visit&& visit) {
+    for (std::int32_t i = lower.x(); i <= upper.x(); ++i) {
+      for (std::int32_t j = lower.y(); j <= upper.y(); ++j) {
+        for (std::int32_t k = lower.z(); k <= upper.z(); ++k) visit(Coord(i, j, k));
+      }
+    }
+  }
+
+  std::uint32_t number_of(const Coord& leaf) {
+    if (!leaves.empty() && leaf == leaves[last_]) return last_;
+    last_ = index_.find(leaf);
+    if (last_ == LeafIndex::none) {
+      last_ = static_cast<std::uint32_t>(leaves.size());
+      index_.insert(leaf, last_);
+      leaves.push_back(leaf);
+    }
+    return last_;
+  }
+
   LeafIndex index_{16};
   std::uint32_t last_ = 0;
 };
@@ -68,13 +88,10 @@ class CellFinder {
     const Coord upper = Coord::maxComponent(Coord::maxComponent(mesh_.cells[a], mesh_.cells[b]), mesh_.cells[c]);
     if (box_size(lower, upper) > kSmallBox) {
       append_cut_cells(triangle, meetings);
-      return;
+    } else {
+      meetings.append_box(lower, upper);
     }
-    for (std::int32_t i = lower.x(); i <= upper.x(); ++i) {
-      for (std::int32_t j = lower.y(); j <= upper.y(); ++j) {
-        for (std::int32_t k = lower.z(); k <= upper.z(); ++k) meetings.append(Coord(i, j, k), triangle);
-      }
-    }
+    meetings.end_triangle();
   }
 
  private:
@@ -96,7 +113,7 @@ class CellFinder {
     }
     std::sort(cells_.begin(), cells_.end());
     cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
-    for (const Coord& cell : cells_) meetings.append(cell, triangle);
+    for (const Coord& cell : cells_) meetings.append(cell);
   }
 
   const LatticeMesh& mesh_;
@@ -111,30 +128,36 @@ CellTriangles::CellTriangles(const LatticeMesh& mesh) : index_(mesh.triangles->s
   std::vector<Meetings> found(triangle_block_count(mesh));
   for_triangle_blocks(mesh, [&](std::size_t block, std::uint32_t begin, std::uint32_t end) {
     CellFinder finder(mesh);
+    found[block].reserve();
     for (std::uint32_t t = begin; t < end; ++t) finder.append_cells(t, found[block]);
   });
   std::size_t count = 0;
   for (Meetings& meetings : found) {
-    count += meetings.all.size();
-    std::vector<std::uint32_t> numbers;
+    count += meetings.cells.size();
+    std::vector<std::uint32_t> first_cells;
     for (const Coord& leaf : meetings.leaves) {
-      numbers.push_back(index_.find(leaf));
-      if (numbers.back() != LeafIndex::none) continue;
-      numbers.back() = static_cast<std::uint32_t>(leaves_.size());
-      index_.insert(leaf, numbers.back());
-      leaves_.push_back(leaf);
+      std::uint32_t number = index_.find(leaf);
+      if (number == LeafIndex::none) {
+        number = static_cast<std::uint32_t>(leaves_.size());
+        index_.insert(leaf, number);
+        leaves_.push_back(leaf);
+      }
+      first_cells.push_back(kCellsPerLeaf * number);
     }
-    for (Meeting& meeting : meetings.all) meeting.leaf = numbers[meeting.leaf];
+    for (std::uint32_t& cell : meetings.cells) cell = first_cells[cell / kCellsPerLeaf] + cell % kCellsPerLeaf;
   }
   begin_.assign(leaves_.size() * kCellsPerLeaf + 2, 0);
   for (const Meetings& meetings : found) {
-    for (const Meeting& m : meetings.all) ++begin_[std::size_t{m.leaf} * kCellsPerLeaf + m.place + 2];
+    for (const std::uint32_t cell : meetings.cells) ++begin_[std::size_t{cell} + 2];
   }
   for (std::size_t n = 2; n < begin_.size(); ++n) begin_[n] += begin_[n - 1];
   triangles_.resize(count);
+  std::uint32_t triangle = 0;
   for (const Meetings& meetings : found) {
-    for (const Meeting& m : meetings.all) {
-      triangles_[begin_[std::size_t{m.leaf} * kCellsPerLeaf + m.place + 1]++] = m.triangle;
+    std::uint32_t n = 0;
+    for (const std::uint32_t end : meetings.ends) {
+      for (; n < end; ++n) triangles_[begin_[std::size_t{meetings.cells[n]} + 1]++] = triangle;
+      ++triangle;
     }
   }
 }

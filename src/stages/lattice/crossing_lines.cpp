@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_sort.h>
 
 #include "crossing_finder.h"
 #include "lattice_predicates.h"
@@ -28,35 +27,52 @@ bool is_before(const LatticeMesh& mesh, const EdgeCrossing& p, const EdgeCrossin
   return std::make_tuple(-p.step, p.triangle) < std::make_tuple(-q.step, q.triangle);
 }
 
-/// What crossings are sorted by first: two comparisons instead of six.
+/// What crossings are sorted by first.
 struct EdgeKey {
-  std::uint64_t line;
-  std::uint64_t along;
+  openvdb::Coord node;
   std::uint32_t number;
-
-  friend bool operator<(const EdgeKey& p, const EdgeKey& q) {
-    if (p.line != q.line) return p.line < q.line;
-    return p.along != q.along ? p.along < q.along : p.number < q.number;
-  }
 };
 
-/// Keeps the order of integers.
-std::uint64_t as_unsigned(std::int32_t k) {
-  return static_cast<std::uint32_t>(k) ^ 0x80000000u;
+/// Up to so many lattice planes there is one counter for each.
+constexpr std::int64_t kMostPlanes = 1 << 16;
+
+/// Sorts by one coordinate, and leaves those in their order that have the same.
+void sort_stably(std::vector<EdgeKey>& keys, int axis, std::vector<EdgeKey>& scratch) {
+  if (keys.empty()) return;
+  std::int32_t lowest = keys.front().node[axis];
+  std::int32_t highest = lowest;
+  for (const EdgeKey& key : keys) {
+    lowest = std::min(lowest, key.node[axis]);
+    highest = std::max(highest, key.node[axis]);
+  }
+  const std::int64_t planes = std::int64_t{highest} - lowest + 1;
+  if (planes > kMostPlanes) {
+    std::stable_sort(keys.begin(), keys.end(),
+                     [&](const EdgeKey& p, const EdgeKey& q) { return p.node[axis] < q.node[axis]; });
+    return;
+  }
+  std::vector<std::uint32_t> begin(static_cast<std::size_t>(planes) + 1, 0);
+  for (const EdgeKey& key : keys) ++begin[key.node[axis] - lowest + 1];
+  for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
+  scratch.resize(keys.size());
+  for (const EdgeKey& key : keys) scratch[begin[key.node[axis] - lowest]++] = key;
+  keys.swap(scratch);
 }
 
 /// Sorts by edge, and leaves those of one edge in their order.
 void sort_by_edge(std::vector<EdgeCrossing>& crossings) {
   std::array<std::vector<EdgeKey>, 3> keys;
+  for (std::vector<EdgeKey>& some : keys) some.reserve(crossings.size() / 2);
   for (std::uint32_t n = 0; n < crossings.size(); ++n) {
-    const auto& [node, axis] = crossings[n].edge;
-    const std::uint64_t line = as_unsigned(node[(axis + 1) % 3]) << 32 | as_unsigned(node[(axis + 2) % 3]);
-    keys[axis].push_back({line, as_unsigned(node[axis]), n});
+    keys[crossings[n].edge.axis].push_back({crossings[n].edge.node, n});
   }
+  tbb::parallel_for(0, 3, [&](int axis) {
+    std::vector<EdgeKey> scratch;
+    for (const int coordinate : {axis, (axis + 2) % 3, (axis + 1) % 3}) sort_stably(keys[axis], coordinate, scratch);
+  });
   std::vector<EdgeCrossing> sorted;
   sorted.reserve(crossings.size());
-  for (std::vector<EdgeKey>& some : keys) {
-    tbb::parallel_sort(some);
+  for (const std::vector<EdgeKey>& some : keys) {
     for (const EdgeKey& key : some) sorted.push_back(crossings[key.number]);
   }
   crossings = std::move(sorted);
@@ -74,6 +90,7 @@ void CrossingLines::find(const LatticeMesh& mesh) {
   std::vector<std::vector<EdgeCrossing>> found(triangle_block_count(mesh));
   for_triangle_blocks(mesh, [&](std::size_t block, std::uint32_t begin, std::uint32_t end) {
     CrossingFinder finder(mesh);
+    found[block].reserve(2 * kTrianglesPerBlock);
     for (std::uint32_t t = begin; t < end; ++t) finder.append_crossings(t, found[block]);
   });
   std::size_t count = 0;

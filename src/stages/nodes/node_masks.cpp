@@ -33,27 +33,10 @@ MovedWords move_words(const LeafWords& words, int axis, int direction) {
   return moved;
 }
 
-LeafWords& NodeMasks::words_at(const openvdb::Coord& origin) {
-  if (last_ != LeafIndex::none && leaves_[last_].origin == origin) return leaves_[last_].words;
-  last_ = index_.find(origin);
-  if (last_ == LeafIndex::none) {
-    last_ = static_cast<std::uint32_t>(leaves_.size());
-    leaves_.push_back({origin});
-    index_.insert(origin, last_);
-  }
-  return leaves_[last_].words;
-}
-
 bool NodeMasks::contains(const openvdb::Coord& node) const {
   const std::uint32_t leaf = find(node & ~7);
   if (leaf == LeafIndex::none) return false;
   return (leaves_[leaf].words[node.x() & 7] >> (8 * (node.y() & 7) + (node.z() & 7)) & 1) != 0;
-}
-
-void NodeMasks::insert(const openvdb::Coord& node) {
-  const openvdb::Coord origin = node & ~(kWidth - 1);
-  const openvdb::Coord at = node - origin;
-  words_at(origin)[at.x()] |= std::uint64_t{1} << (kWidth * at.y() + at.z());
 }
 
 void NodeMasks::dilate(int down, int up) {

@@ -26,12 +26,23 @@ class NodeMasks {
   /// Number of the leaf with that origin, or LeafIndex::none.
   std::uint32_t find(const openvdb::Coord& origin) const { return index_.find(origin); }
 
-  void insert(const openvdb::Coord& node);
+  void insert(const openvdb::Coord& node) {
+    words_at(node & ~7)[node.x() & 7] |= std::uint64_t{1} << (8 * (node.y() & 7) + (node.z() & 7));
+  }
 
   bool contains(const openvdb::Coord& node) const;
 
   /// The mask of a leaf, which is made where it is not there yet. Valid until another leaf is made.
-  LeafWords& words_at(const openvdb::Coord& origin);
+  LeafWords& words_at(const openvdb::Coord& origin) {
+    if (last_ != LeafIndex::none && leaves_[last_].origin == origin) return leaves_[last_].words;
+    last_ = index_.find(origin);
+    if (last_ == LeafIndex::none) {
+      last_ = static_cast<std::uint32_t>(leaves_.size());
+      leaves_.push_back({origin});
+      index_.insert(origin, last_);
+    }
+    return leaves_[last_].words;
+  }
 
   /// Adds to every node those up to `down` below and up to `up` above it along each axis.
   void dilate(int down, int up);

@@ -67,11 +67,12 @@ Projection project(const std::vector<Vec3f>& vertices, const std::vector<float>&
   result.status.resize(vertices.size());
   std::vector<SurfacePoint> found(vertices.size());
   const SearchLimits limits = search_limits(parameters, field.dx);
+  const FieldLeaves leaves(field);
   const double rest = kRestDistance * parameters.particle_spacing;
   constexpr std::size_t grain = 1024;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, vertices.size(), grain), [&](const tbb::blocked_range<std::size_t>& range) {
-        SurfaceSearch search(field, limits);
+        SurfaceSearch search(field, leaves, limits);
         search.find(vertices, range.begin(), range.end(), found);
         slide_to_foot_points(vertices, range.begin(), range.end(), parameters.particle_spacing, search, found);
         for (std::size_t v = range.begin(); v != range.end(); ++v) {

@@ -19,8 +19,8 @@ constexpr double kNearStep = 0.8;
 
 }  // namespace
 
-SurfaceSearch::SurfaceSearch(const SignedDistanceField& field, const SearchLimits& limits)
-    : stencil_(field),
+SurfaceSearch::SurfaceSearch(const SignedDistanceField& field, const FieldLeaves& leaves, const SearchLimits& limits)
+    : stencil_(leaves),
       kernel_(active_tricubic_kernel()),
       limits_(limits),
       dx_(field.dx),
@@ -100,14 +100,11 @@ bool SurfaceSearch::settle(int l, const std::vector<Vec3f>& vertices, SurfacePoi
 void SurfaceSearch::advance(int l) {
   Lane& lane = lanes_[l];
   ++lane.steps;
-  const openvdb::Coord before = lane.cell;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float place = batch_.next[axis][l];
-    const std::int32_t cells = floor_of(place);
-    lane.cell[axis] += cells;
-    batch_.place[axis][l] = place - static_cast<float>(cells);
-  }
-  if (lane.cell != before) stencil_.load(lane.cell, &batch_.nodes[0][l], TricubicBatch::lanes);
+  for (int axis = 0; axis < 3; ++axis) batch_.place[axis][l] = batch_.next[axis][l];
+  const openvdb::Coord cells(batch_.cells[0][l], batch_.cells[1][l], batch_.cells[2][l]);
+  if (cells == openvdb::Coord(0)) return;
+  lane.cell += cells;
+  stencil_.load(lane.cell, &batch_.nodes[0][l], TricubicBatch::lanes);
 }
 
 }  // namespace particle_surface_tracker

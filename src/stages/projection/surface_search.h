@@ -30,7 +30,8 @@ struct SearchLimits {
 /// tolerance (Sec. 5.2). Many at a time, each as if it were alone. One object per thread.
 class SurfaceSearch {
  public:
-  SurfaceSearch(const SignedDistanceField& field, const SearchLimits& limits);
+  /// \param leaves of the field; must outlive this.
+  SurfaceSearch(const SignedDistanceField& field, const FieldLeaves& leaves, const SearchLimits& limits);
 
   /// Finds x* for vertices [begin, end) of `vertices` and writes them to the same places of `found`.
   void find(const std::vector<Vec3f>& vertices, std::size_t begin, std::size_t end, std::vector<SurfacePoint>& found);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 namespace particle_surface_tracker {
 
@@ -16,7 +17,8 @@ struct TricubicBatch {
   alignas(64) Lanes value;                    ///< φ [m], out.
   alignas(64) std::array<Lanes, 3> gradient;  ///< ∇φ [m per cell], out.
   alignas(64) Lanes slope;                    ///< |∇φ| [m per cell], out.
-  alignas(64) std::array<Lanes, 3> next;      ///< The place after a step along −∇φ/|∇φ|, out.
+  alignas(64) std::array<Lanes, 3> next;      ///< The place after a step along −∇φ/|∇φ|, within its cell, out.
+  alignas(64) std::array<std::array<std::int32_t, lanes>, 3> cells;  ///< By how many cells it is farther, out.
 };
 
 /// How far a step goes.

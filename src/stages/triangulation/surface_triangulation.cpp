@@ -1,7 +1,9 @@
 #include "particle_surface_tracker/stages/surface_triangulation.h"
 
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "cell_loops.h"
 #include "cut_cells.h"
@@ -23,6 +25,29 @@ struct Begin {
   std::uint32_t triangle = 0;
 };
 
+/// Bits that are set; without a library call on plain x86-64.
+std::uint32_t count_bits(std::uint64_t word) {
+  word -= word >> 1 & 0x5555555555555555;
+  word = (word & 0x3333333333333333) + (word >> 2 & 0x3333333333333333);
+  word = (word + (word >> 4)) & 0x0F0F0F0F0F0F0F0F;
+  return static_cast<std::uint32_t>(word * 0x0101010101010101 >> 56);
+}
+
+/// Per axis and slice of a leaf the vertices on its edges before, in the order in which they are placed.
+using EdgesBefore = std::array<std::array<std::uint16_t, 8>, 3>;
+
+EdgesBefore count_edges_before(const CutLeaf& leaf) {
+  EdgesBefore before;
+  std::uint32_t count = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int x = 0; x < 8; ++x) {
+      before[axis][x] = static_cast<std::uint16_t>(count);
+      count += count_bits(leaf.edges[axis][x]);
+    }
+  }
+  return before;
+}
+
 /// A node of a cell, as a leaf and an offset into it.
 struct NodePlace {
   int neighbor;  ///< 0 for the leaf of the cell, else the one ahead along x, y, z (bits 0, 1, 2).
@@ -42,8 +67,6 @@ class Triangulator {
   SurfaceTriangulation run();
 
  private:
-  std::uint16_t* vertices_on_edges(std::size_t leaf) const { return vertex_on_edge_.get() + 3 * 512 * leaf; }
-
   void place_vertices(std::size_t number);
   void fill_cells(std::size_t number);
   std::uint32_t vertex_on(const CutLeaf& leaf, int cell_offset, int edge) const;
@@ -51,19 +74,19 @@ class Triangulator {
   double dx_;
   CutCells cut_;
   std::vector<Begin> begin_;
-  /// Per leaf, axis and lower node the number of the vertex on the edge, counted from the leaf's first; set where it is
-  /// cut.
-  std::unique_ptr<std::uint16_t[]> vertex_on_edge_;
+  std::vector<EdgesBefore> edges_before_;
   SurfaceTriangulation surface_;
 };
 
-Triangulator::Triangulator(const openvdb::FloatTree& tree, double dx)
-    : dx_(dx), cut_(tree), vertex_on_edge_(new std::uint16_t[3 * 512 * cut_.leaves().size()]) {}
+Triangulator::Triangulator(const openvdb::FloatTree& tree, double dx) : dx_(dx), cut_(tree) {}
 
 SurfaceTriangulation Triangulator::run() {
   Begin end;
+  begin_.reserve(cut_.leaves().size());
+  edges_before_.reserve(cut_.leaves().size());
   for (const CutLeaf& leaf : cut_.leaves()) {
     begin_.push_back(end);
+    edges_before_.push_back(count_edges_before(leaf));
     end.cell += leaf.cell_count;
     end.vertex += leaf.edge_count;
     end.triangle += leaf.triangle_count;
@@ -80,9 +103,7 @@ SurfaceTriangulation Triangulator::run() {
 void Triangulator::place_vertices(std::size_t number) {
   const CutLeaf& leaf = cut_.leaves()[number];
   const Coord& origin = leaf.leaf->origin();
-  std::uint16_t* on_edge = vertices_on_edges(number);
-  std::uint16_t count = 0;
-  Vec3f* vertices = surface_.vertices.data() + begin_[number].vertex;
+  Vec3f* next = surface_.vertices.data() + begin_[number].vertex;
   for (int axis = 0; axis < 3; ++axis) {
     for (int x = 0; x < 8; ++x) {
       for_each_bit(leaf.edges[axis][x], [&](int bit) {
@@ -93,8 +114,7 @@ void Triangulator::place_vertices(std::size_t number) {
         const double t = std::clamp(a / (a - b), kClosestToNode, 1.0 - kClosestToNode);
         Vec3d node(origin.x() + x, origin.y() + (bit >> 3), origin.z() + (bit & 7));
         node[axis] += t;
-        on_edge[512 * axis + offset] = count;
-        vertices[count++] = (dx_ * node).cast<float>();
+        *next++ = (dx_ * node).cast<float>();
       });
     }
   }
@@ -104,7 +124,10 @@ std::uint32_t Triangulator::vertex_on(const CutLeaf& leaf, int cell_offset, int 
   const CellEdge& e = cell_edges()[edge];
   const NodePlace lower = corner_place(cell_offset, e.lower);
   const std::uint32_t owner = leaf.neighbors[lower.neighbor];
-  return begin_[owner].vertex + vertices_on_edges(owner)[512 * e.axis + lower.offset];
+  const int x = lower.offset >> 6;
+  const std::uint64_t below = (std::uint64_t{1} << (lower.offset & 63)) - 1;
+  return begin_[owner].vertex + edges_before_[owner][e.axis][x] +
+         count_bits(cut_.leaves()[owner].edges[e.axis][x] & below);
 }
 
 void Triangulator::fill_cells(std::size_t number) {
