@@ -47,7 +47,7 @@ NodeMasks nodes_needed(const std::vector<openvdb::Coord>& nodes, double ratio) {
 }  // namespace
 
 FieldAtNodes::FieldAtNodes(const ImplicitSurface& surface, double h)
-    : surface_(surface), h_(h), signs_(make_field_signs(surface)), cells_(surface) {}
+    : surface_(surface), h_(h), signs_(make_field_signs(surface)) {}
 
 NodeMasks FieldAtNodes::liquid(const NodeMasks& set) const {
   NodeMasks found(set.leaves().size());
@@ -69,6 +69,7 @@ NodeMasks FieldAtNodes::liquid(const NodeMasks& set) const {
 }
 
 std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& nodes, double reach) const {
+  if (!cells_) cells_.emplace(surface_);
   const double ratio = h_ / surface_.dx;
   const double reach_cells = reach / surface_.dx;
   const NodeMasks needed = nodes_needed(nodes, ratio);
@@ -86,7 +87,7 @@ std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& no
     near_leaf[n] = static_cast<std::uint32_t>(near.leaves().size());
     near.words_at(leaf.origin) = both;
   }
-  const std::vector<DistanceLeaf> squared = measure_distances(cells_, near, reach_cells);
+  const std::vector<DistanceLeaf> squared = measure_distances(*cells_, near, reach_cells);
 
   std::vector<LeafValues> values(needed.leaves().size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 16), [&](const auto& range) {

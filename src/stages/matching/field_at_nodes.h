@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include <openvdb/Types.h>
@@ -13,6 +13,7 @@
 namespace particle_surface_tracker {
 
 /// φ at nodes of Γ, by linear interpolation between the nodes of φ's own lattice (Alg. 1). Its sign is right anywhere.
+/// Not to be shared by threads.
 class FieldAtNodes {
  public:
   /// \param surface must live as long as this.
@@ -33,7 +34,7 @@ class FieldAtNodes {
   const ImplicitSurface& surface_;
   double h_;
   LineSigns signs_;
-  SurfaceCells cells_;
+  mutable std::optional<SurfaceCells> cells_;  // sides can be had without
 };
 
 }  // namespace particle_surface_tracker
