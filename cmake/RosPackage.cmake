@@ -8,7 +8,7 @@ find_package(catkin REQUIRED COMPONENTS
   sensor_msgs std_msgs std_srvs
   visualization_msgs)
 
-add_message_files(FILES TrackedMesh.msg TrackerStatus.msg)
+add_message_files(FILES ParticleSurface.msg TrackedMesh.msg TrackerStatus.msg)
 generate_messages(DEPENDENCIES std_msgs)
 generate_dynamic_reconfigure_options(cfg/Tracker.cfg)
 

@@ -52,9 +52,15 @@ FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uin
 }
 
 PreparedFrame FrameHandler::prepare(const sensor_msgs::PointCloud2& cloud) {
-  if (ahead_ == nullptr || !ahead_->is_for(cloud)) return {to_particle_frame(cloud), nullptr, {}};
-  const std::unique_ptr<FrameAhead> ahead = std::move(ahead_);
-  return ahead->take();
+  if (ahead_ != nullptr && ahead_->is_for(cloud)) {
+    const std::unique_ptr<FrameAhead> ahead = std::move(ahead_);
+    return ahead->take();
+  }
+  PreparedFrame prepared{to_particle_frame(cloud), nullptr, {}};
+  if (surface_source_ && started() && !prepared.particles.empty()) {
+    prepared.surface = surface_source_(prepared.particles, tracker_->parameters());
+  }
+  return prepared;
 }
 
 FrameReport FrameHandler::advance(PreparedFrame prepared, std::uint64_t frame_index) {

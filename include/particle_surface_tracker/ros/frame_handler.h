@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <particle_surface_tracker/TrackedMesh.h>
@@ -55,6 +57,14 @@ class FrameHandler {
   /// first frame nothing is done.
   void look_ahead(const sensor_msgs::PointCloud2ConstPtr& cloud);
 
+  /// Where the implicit surface of a frame may come from, in place of being made here.
+  /// \return null: it has to be made here.
+  using SurfaceSource = std::function<std::shared_ptr<const ImplicitSurface>(const ParticleFrame& particles,
+                                                                             const Parameters& parameters)>;
+
+  /// handle() asks this for the surface of every frame but the first that is not ahead.
+  void set_surface_source(SurfaceSource source) { surface_source_ = std::move(source); }
+
   /// Puts into a checkpoint all that the next frame goes on from.
   /// \pre started().
   void save(Checkpoint& checkpoint) const;
@@ -96,6 +106,7 @@ class FrameHandler {
   std::vector<Triangle> triangles_;       // Of the last frame, to see when they change.
   std::uint32_t topology_version_ = 0;
   std::unique_ptr<FrameAhead> ahead_;
+  SurfaceSource surface_source_;
 };
 
 }  // namespace particle_surface_tracker
