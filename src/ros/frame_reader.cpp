@@ -7,21 +7,24 @@
 namespace particle_surface_tracker {
 
 sensor_msgs::PointCloud2ConstPtr FrameReader::take(std::uint64_t frame) {
-  if (!ahead_ || ahead_->frame != frame) return bag_.read(frame);
-  const Ahead ahead = std::move(*ahead_);
-  ahead_.reset();
-  if (ahead.error) std::rethrow_exception(ahead.error);
-  return ahead.cloud;
+  const auto found = ahead_.find(frame);
+  if (found == ahead_.end()) return bag_.read(frame);
+  const Reading reading = std::move(found->second);
+  ahead_.erase(found);
+  return reading.get();
 }
 
 sensor_msgs::PointCloud2ConstPtr FrameReader::look_ahead(std::uint64_t frame) {
-  ahead_.emplace(Ahead{frame, nullptr, nullptr});
+  if (ahead_.count(frame) == 0) prefetch(frame);
   try {
-    ahead_->cloud = bag_.read(frame);
+    return ahead_.at(frame).get();
   } catch (const InputError&) {
-    ahead_->error = std::current_exception();
+    return nullptr;
   }
-  return ahead_->cloud;
+}
+
+void FrameReader::prefetch(std::uint64_t frame) {
+  ahead_[frame] = std::async(std::launch::async, [this, frame] { return bag_.read(frame); }).share();
 }
 
 }  // namespace particle_surface_tracker

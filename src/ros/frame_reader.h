@@ -1,35 +1,34 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
-#include <optional>
+#include <future>
+#include <map>
 
 #include "particle_surface_tracker/ros/particle_bag.h"
 
 namespace particle_surface_tracker {
 
-/// Reads the frames of a bag, one of them ahead of its time if that is wanted. What is wrong with it is said when its
-/// time has come.
+/// Reads the frames of a bag, if wanted ahead of their time. What is wrong with one is said when its time has come.
 class FrameReader {
  public:
-  /// \param bag outlives this object.
+  /// \param bag outlives this object, and is read by it only.
   explicit FrameReader(ParticleBag& bag) : bag_(bag) {}
 
   /// \throw InputError as ParticleBag::read().
   sensor_msgs::PointCloud2ConstPtr take(std::uint64_t frame);
 
-  /// \return null if the frame cannot be read.
+  /// Waits for a frame that take() will be asked for later.
+  /// \return null if it cannot be read.
   sensor_msgs::PointCloud2ConstPtr look_ahead(std::uint64_t frame);
 
+  /// Begins to read a frame on a thread of its own. Nothing else may be read until it has been waited for.
+  void prefetch(std::uint64_t frame);
+
  private:
-  struct Ahead {
-    std::uint64_t frame;
-    sensor_msgs::PointCloud2ConstPtr cloud;
-    std::exception_ptr error;
-  };
+  using Reading = std::shared_future<sensor_msgs::PointCloud2ConstPtr>;
 
   ParticleBag& bag_;
-  std::optional<Ahead> ahead_;
+  std::map<std::uint64_t, Reading> ahead_;
 };
 
 }  // namespace particle_surface_tracker

@@ -1,8 +1,11 @@
 #include "ros/surface/surface_conversion.h"
 
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "particle_surface_tracker/core/error.h"
@@ -97,7 +100,7 @@ TEST(SurfaceConversion, TheParametersNamedAreThoseThatTheSurfaceDependsOn) {
     } else if (info.type == ParameterInfo::Type::kChoice) {
       set_parameter(changed, info.name, info.choices.front());
     } else {
-      set_parameter(changed, info.name, std::to_string(static_cast<int>(std::ceil(info.minimum))));
+      set_parameter(changed, info.name, fmt::format("{}", info.minimum));
     }
     const auto surface = make_implicit_surface(particles(), changed);
     const ParticleSurface result = to_surface_message(standard.header, *surface, particles(), changed);
