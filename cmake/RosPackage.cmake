@@ -7,7 +7,7 @@ find_package(catkin REQUIRED COMPONENTS
   diagnostic_msgs diagnostic_updater dynamic_reconfigure message_generation nodelet pluginlib rosbag_storage roscpp
   roscpp_serialization roslz4 rostime sensor_msgs shape_msgs std_msgs std_srvs topic_tools visualization_msgs)
 
-add_message_files(FILES InterpolatedField.msg TrackedMesh.msg TrackerStatus.msg)
+add_message_files(FILES InterpolatedField.msg ParticleSurface.msg TrackedMesh.msg TrackerStatus.msg)
 add_service_files(FILES SaveMesh.srv)
 generate_messages(DEPENDENCIES std_msgs)
 generate_dynamic_reconfigure_options(cfg/Tracker.cfg)

@@ -58,6 +58,13 @@ void TriangleMesh::set_triangles(std::vector<Triangle> triangles) {
   triangles_ = std::move(triangles);
 }
 
+void TriangleMesh::reserve_ids(std::uint32_t next_id) {
+  if (next_id < next_id_) {
+    throw MeshError(fmt::format("ids below {} cannot be the only ones given: there is id {}", next_id, next_id_ - 1));
+  }
+  next_id_ = next_id;
+}
+
 std::uint32_t TriangleMesh::append_vertex(const Vec3f& position, const VertexBlend& blend) {
   attributes_.append_blend(blend);
   positions_.push_back(position);

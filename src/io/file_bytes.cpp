@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,32 +11,11 @@
 
 #include <fmt/format.h>
 
+#include "file_descriptor.h"
 #include "particle_surface_tracker/core/error.h"
 
 namespace particle_surface_tracker {
 namespace {
-
-/// Closes a file when it goes out of scope, unless close() was called.
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int number) : number_(number) {}
-  ~FileDescriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-  bool close() {
-    const int result = ::close(number_);
-    number_ = -1;
-    return result == 0;
-  }
-
- private:
-  int number_;
-};
 
 [[noreturn]] void throw_input_error(const std::string& path, const char* reason) {
   throw InputError(fmt::format("Cannot read '{}': {}.", path, reason));
@@ -46,21 +26,38 @@ class FileDescriptor {
       "Cannot write '{}': {}. Check that its folder is there and writable and the disk not full.", path, reason));
 }
 
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 /// Renaming onto a device would replace the device by a file.
 void check_replaceable(const std::string& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
     throw_output_error(path, S_ISDIR(status.st_mode) ? std::strerror(EISDIR) : "it is not a regular file");
+  }
+}
+
+/// \param durably flushes the file before it gets its name.
+void write_and_rename(const std::string& path, std::string_view bytes, bool durably) {
+  check_replaceable(path);
+  const std::string temporary = path + ".part";
+  FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!file.is_open()) throw_output_error(path, std::strerror(errno));
+  const bool written = write_all(file.number(), bytes) && (!durably || ::fsync(file.number()) == 0);
+  const int write_error = errno;
+  // Some file systems report a full disk only when the file is closed.
+  const bool closed = file.close();
+  const int close_error = errno;
+  if (written && closed && std::rename(temporary.c_str(), path.c_str()) == 0) return;
+  const int error = !written ? write_error : !closed ? close_error : errno;
+  ::unlink(temporary.c_str());
+  throw_output_error(path, std::strerror(error));
+}
+
+/// Flushes the names in a folder.
+void flush_folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  FileDescriptor opened(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // Some file systems cannot flush folders, and say so with EINVAL.
+  if (!opened.is_open() || (::fsync(opened.number()) != 0 && errno != EINVAL)) {
+    throw_output_error(path, std::strerror(errno));
   }
 }
 
@@ -88,19 +85,12 @@ std::string read_file(const std::string& path) {
 }
 
 void write_file_whole(const std::string& path, std::string_view bytes) {
-  check_replaceable(path);
-  const std::string temporary = path + ".part";
-  FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file.is_open()) throw_output_error(path, std::strerror(errno));
-  const bool written = write_all(file.number(), bytes);
-  const int write_error = errno;
-  // Some file systems report a full disk only when the file is closed.
-  const bool closed = file.close();
-  const int close_error = errno;
-  if (written && closed && std::rename(temporary.c_str(), path.c_str()) == 0) return;
-  const int error = !written ? write_error : !closed ? close_error : errno;
-  ::unlink(temporary.c_str());
-  throw_output_error(path, std::strerror(error));
+  write_and_rename(path, bytes, /*durably*/ false);
+}
+
+void write_file_durably(const std::string& path, std::string_view bytes) {
+  write_and_rename(path, bytes, /*durably*/ true);
+  flush_folder_of(path);
 }
 
 }  // namespace particle_surface_tracker

@@ -14,4 +14,9 @@ std::string read_file(const std::string& path);
 /// \throw OutputError that names the path and the reason; the temporary file is removed then.
 void write_file_whole(const std::string& path, std::string_view bytes);
 
+/// As write_file_whole(), and flushed to the disk, file and name, before it returns: after a power failure the file is
+/// the new or the old one, and whole.
+/// \throw OutputError as write_file_whole().
+void write_file_durably(const std::string& path, std::string_view bytes);
+
 }  // namespace particle_surface_tracker

@@ -2,11 +2,15 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
+
+#include <fcntl.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "file_descriptor.h"
 #include "particle_surface_tracker/core/error.h"
 
 namespace particle_surface_tracker {
@@ -91,6 +95,12 @@ Json body_of(const FrameReport& report) {
   return json;
 }
 
+std::unique_ptr<FileDescriptor> open_or_throw(const std::string& path, int flags) {
+  auto file = std::make_unique<FileDescriptor>(::open(path.c_str(), flags | O_CLOEXEC, 0666));
+  if (!file->is_open()) throw OutputError(fmt::format("cannot write report '{}': {}", path, std::strerror(errno)));
+  return file;
+}
+
 }  // namespace
 
 std::string report_line(const FrameReport& report) {
@@ -103,9 +113,26 @@ std::string report_error_line(std::uint64_t frame, const std::string& error) {
   return text_of(Json{{"frame", frame}, {"error", error}});
 }
 
-ReportWriter::ReportWriter(std::string path) : path_(std::move(path)), file_(path_, std::ios::trunc) {
-  if (!file_) throw OutputError(fmt::format("cannot write report '{}': {}", path_, std::strerror(errno)));
+ReportWriter::ReportWriter(std::string path) : path_(std::move(path)) {
+  file_ = open_or_throw(path_, O_WRONLY | O_CREAT | O_TRUNC);
 }
+
+ReportWriter::ReportWriter(std::string path, std::uint64_t kept_bytes) : path_(std::move(path)), bytes_(kept_bytes) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path_, error);
+  if (error) throw InputError(fmt::format("cannot go on with report '{}': {}", path_, error.message()));
+  if (size < kept_bytes) {
+    throw InputError(fmt::format("cannot go on with report '{}': it has {} bytes, and that of the run had {}", path_,
+                                 size, kept_bytes));
+  }
+  file_ = open_or_throw(path_, O_WRONLY);
+  const auto end = static_cast<off_t>(kept_bytes);
+  if (::ftruncate(file_->number(), end) != 0 || ::lseek(file_->number(), 0, SEEK_END) != end) {
+    throw OutputError(fmt::format("cannot write report '{}': {}", path_, std::strerror(errno)));
+  }
+}
+
+ReportWriter::~ReportWriter() = default;
 
 void ReportWriter::write(const FrameReport& report) {
   write_line(report_line(report));
@@ -115,9 +142,12 @@ void ReportWriter::write_error(std::uint64_t frame, const std::string& error) {
   write_line(report_error_line(frame, error));
 }
 
-void ReportWriter::write_line(const std::string& line) {
-  file_ << line << '\n' << std::flush;
-  if (!file_) throw OutputError(fmt::format("cannot write to report '{}': {}", path_, std::strerror(errno)));
+void ReportWriter::write_line(std::string line) {
+  line += '\n';
+  if (!write_all(file_->number(), line)) {
+    throw OutputError(fmt::format("cannot write to report '{}': {}", path_, std::strerror(errno)));
+  }
+  bytes_ += line.size();
 }
 
 }  // namespace particle_surface_tracker

@@ -1,8 +1,12 @@
 #include "particle_surface_tracker/ros/frame_handler.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "flat_arrays.h"
+#include "frame_ahead.h"
+#include "message_state.h"
+#include "parameter_agreement.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/mesh_refinement.h"
 #include "particle_surface_tracker/core/vertex_normals.h"
@@ -31,19 +35,69 @@ FrameHandler::FrameHandler(FrameHandlerOptions options)
 FrameHandler::~FrameHandler() = default;
 
 FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uint64_t frame_index) {
-  const ParticleFrame frame = to_particle_frame(cloud);
+  PreparedFrame prepared = prepare(cloud);
+  const std::int64_t stamp_ns = prepared.particles.stamp_ns;
   const bool is_first = !started();
   VertexPlaces places;
   if (!is_first) places = {tracker_->mesh().ids(), tracker_->mesh().positions()};
-  FrameReport report = is_first ? start(frame, frame_index) : tracker_->advance(frame, frame_index);
+  FrameReport report = is_first ? start(prepared.particles, frame_index) : advance(std::move(prepared), frame_index);
   *before_ = std::move(places);
-  seconds_ = is_first ? 0.0 : 1e-9 * static_cast<double>(frame.stamp_ns - to_nanoseconds(header_.stamp));
+  seconds_ = is_first ? 0.0 : 1e-9 * static_cast<double>(stamp_ns - to_nanoseconds(header_.stamp));
   header_ = cloud.header;
   if (triangles_ != tracker_->mesh().triangles()) {
     triangles_ = tracker_->mesh().triangles();
     ++topology_version_;
   }
   return report;
+}
+
+PreparedFrame FrameHandler::prepare(const sensor_msgs::PointCloud2& cloud) {
+  if (ahead_ != nullptr && ahead_->is_for(cloud)) {
+    const std::unique_ptr<FrameAhead> ahead = std::move(ahead_);
+    return ahead->take();
+  }
+  PreparedFrame prepared{to_particle_frame(cloud), nullptr, {}};
+  if (surface_source_ && started() && !prepared.particles.empty()) {
+    prepared.surface = surface_source_(prepared.particles, tracker_->parameters());
+  }
+  return prepared;
+}
+
+FrameReport FrameHandler::advance(PreparedFrame prepared, std::uint64_t frame_index) {
+  FrameReport report = tracker_->advance(prepared.particles, frame_index, std::move(prepared.surface));
+  report.times.insert(report.times.begin(), prepared.times.begin(), prepared.times.end());
+  return report;
+}
+
+void FrameHandler::look_ahead(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+  // The spacing may only be known once the first frame is.
+  if (started()) ahead_ = std::make_unique<FrameAhead>(cloud, tracker_->parameters());
+}
+
+void FrameHandler::save(Checkpoint& checkpoint) const {
+  checkpoint.tracker = tracker_->state();
+  checkpoint.sections[message_section] = to_bytes(MessageState{header_, seconds_, *before_, topology_version_});
+}
+
+void FrameHandler::load(const Checkpoint& checkpoint) {
+  require_agreement(checkpoint.tracker.parameters, options_.parameters, Agreement::kWhatNeedsReset,
+                    /*any_spacing*/ options_.estimate_spacing);
+  const auto section = checkpoint.sections.find(message_section);
+  if (section == checkpoint.sections.end())
+    throw InputError("the checkpoint does not say which message it was made of");
+  MessageState state = message_state_from(section->second);
+  Parameters parameters = options_.parameters;
+  parameters.particle_spacing = checkpoint.tracker.parameters.particle_spacing;
+  Tracker tracker(checkpoint.tracker);
+  tracker.set_parameters(parameters);
+
+  reset();
+  triangles_ = tracker.mesh().triangles();
+  tracker_.emplace(std::move(tracker));
+  header_ = std::move(state.header);
+  seconds_ = state.seconds;
+  *before_ = std::move(state.before);
+  topology_version_ = std::max(topology_version_ + 1, state.topology_version);
 }
 
 FrameReport FrameHandler::start(const ParticleFrame& frame, std::uint64_t frame_index) {
@@ -64,6 +118,7 @@ FrameReport FrameHandler::start(const ParticleFrame& frame, std::uint64_t frame_
 }
 
 void FrameHandler::reset() {
+  ahead_.reset();
   tracker_.reset();
   *before_ = {};
   // No triangles: the next mesh gets a new version, for whoever knows those of this one.

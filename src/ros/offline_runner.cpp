@@ -8,15 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "frame_reader.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/frame_check.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
-#include "particle_surface_tracker/io/report_writer.h"
-#include "particle_surface_tracker/io/vdb_sequence.h"
 #include "particle_surface_tracker/ros/frame_handler.h"
 #include "particle_surface_tracker/ros/particle_bag.h"
-#include "particle_surface_tracker/ros/tracking_bag_writer.h"
+#include "run_checkpoint.h"
 #include "run_messages.h"
+#include "run_outputs.h"
 #include "stage_table.h"
 
 namespace particle_surface_tracker {
@@ -36,21 +36,28 @@ class OfflineRun {
       : options_(options),
         out_(out),
         messages_(err, /*warnings*/ !options.quiet, options.progress && !options.quiet),
-        bag_(options.bag, options.topic) {
+        bag_(options.bag, options.topic),
+        frames_(bag_) {
     choose_frames();
-    open_outputs();
-    handler_.emplace(handler_options());
+    if (options_.resume.empty()) {
+      begin();
+    } else {
+      resume();
+    }
     for (const std::string& damage : bag_.damage()) messages_.warn(damage);
   }
 
   OfflineSummary run(const std::atomic<bool>& stop) {
-    for (std::uint64_t frame = options_.first; frame <= last_ && !summary_.interrupted; ++frame) {
+    const std::uint64_t begin = next_;
+    for (; next_ <= last_ && !summary_.interrupted;) {
+      const std::uint64_t frame = next_++;
       run_frame(frame);
       summary_.interrupted = stop && frame != last_;
-      messages_.show_progress(summary_.tracked + summary_.skipped, last_ - options_.first + 1, frame);
+      messages_.show_progress(summary_.tracked + summary_.skipped, last_ - begin + 1, frame);
+      if (checkpoint_due()) save_checkpoint(outputs_->settle());
     }
     messages_.end_progress();
-    if (out_bag_) out_bag_->close();
+    finish();
     if (!options_.quiet) print_summary();
     return summary_;
   }
@@ -66,18 +73,35 @@ class OfflineRun {
     }
   }
 
-  // Whatever cannot be written is found out before any work is done.
-  void open_outputs() {
-    meshes_.emplace(options_.out, options_.format);
-    if (!options_.surface.empty()) surfaces_.emplace(options_.surface, MeshFormat::kPly);
-    if (!options_.vdb.empty()) fields_.emplace(options_.vdb);
-    if (!options_.report.empty()) report_.emplace(options_.report);
-    if (options_.out_bag.empty()) return;
-    std::error_code not_there;
-    if (std::filesystem::equivalent(options_.out_bag, options_.bag, not_there)) {
-      throw ParameterError("--out-bag and --bag are the same file");
+  void begin() {
+    next_ = options_.first;
+    outputs_.emplace(options_, nullptr);
+    handler_.emplace(handler_options());
+    // One of an older run must not be taken for one of this run.
+    std::error_code ignored;
+    if (keeps_checkpoints()) std::filesystem::remove(options_.checkpoint, ignored);
+  }
+
+  void resume() {
+    const Checkpoint checkpoint = read_checkpoint(options_.resume);
+    try {
+      const RunProgress progress = require_this_run(checkpoint, options_, bag_);
+      FrameHandlerOptions handler;
+      handler.parameters = checkpoint.tracker.parameters;
+      handler_.emplace(std::move(handler));
+      handler_->load(checkpoint);
+      next_ = progress.next;
+      if (next_ > last_ + 1) {
+        throw ParameterError(
+            fmt::format("--last {}: the run has got beyond it and goes on with frame {}", last_, next_));
+      }
+      outputs_.emplace(options_, &progress.outputs);
+    } catch (const ParameterError& error) {
+      throw ParameterError(fmt::format("--resume {}: {}", options_.resume, error.what()));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--resume {}: {}", options_.resume, error.what()));
     }
-    out_bag_.emplace(options_.out_bag, options_.topic);
+    if (!options_.quiet) out_ << fmt::format("going on with frame {}\n", next_) << std::flush;
   }
 
   FrameHandlerOptions handler_options() {
@@ -98,8 +122,9 @@ class OfflineRun {
   void run_frame(std::uint64_t frame) {
     try {
       const Stopwatch reading;
-      const sensor_msgs::PointCloud2ConstPtr cloud = bag_.read(frame);
+      const sensor_msgs::PointCloud2ConstPtr cloud = frames_.take(frame);
       times_.add("reading the bag", reading.seconds());
+      if (options_.pipeline && frame != last_) look_ahead(frame + 1);
       track(frame, cloud);
     } catch (const InputError& error) {
       skip(frame, error);
@@ -108,6 +133,15 @@ class OfflineRun {
     } catch (const TrackingError& error) {
       throw TrackingError(fmt::format("frame {}: {}", frame, error.what()));
     }
+  }
+
+  // The next frame is prepared, and the one after it read, while this one is tracked.
+  void look_ahead(std::uint64_t frame) {
+    const Stopwatch reading;
+    const sensor_msgs::PointCloud2ConstPtr cloud = frames_.look_ahead(frame);
+    times_.add("reading the bag", reading.seconds());
+    if (frame != last_) frames_.prefetch(frame + 1);
+    if (cloud != nullptr) handler_->look_ahead(cloud);
   }
 
   void track(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud) {
@@ -122,7 +156,7 @@ class OfflineRun {
     if (options_.check) check(report);
     for (const std::string& warning : report.warnings) messages_.warn(fmt::format("frame {}: {}", frame, warning));
     const Stopwatch writing;
-    write(frame, cloud, report);
+    outputs_->write(frame, cloud, *handler_, report);
     writing_seconds_ += writing.seconds();
     ++summary_.tracked;
   }
@@ -134,20 +168,33 @@ class OfflineRun {
     times_.add("checking", checking.seconds());
   }
 
-  void write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameReport& report) {
-    meshes_->write(handler_->tracker().mesh(), frame);
-    if (surfaces_) {
-      const SurfaceTriangulation& surface = handler_->tracker().implicit_surface()->triangulation;
-      surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame);
-    }
-    if (fields_) fields_->write(*handler_->tracker().implicit_surface(), frame);
-    if (out_bag_) out_bag_->write(cloud, handler_->message());
-    if (report_) report_->write(report);
+  bool keeps_checkpoints() const { return !options_.checkpoint.empty(); }
+
+  bool checkpoint_due() const {
+    return keeps_checkpoints() &&
+           ((next_ - options_.first) % options_.checkpoint_every == 0 || next_ == last_ + 1 || summary_.interrupted);
+  }
+
+  void save_checkpoint(const OutputProgress& outputs) {
+    const Stopwatch saving;
+    Checkpoint checkpoint;
+    handler_->save(checkpoint);
+    checkpoint.sections[run_section] = to_bytes(RunProgress{options_.first, next_, outputs});
+    write_checkpoint(options_.checkpoint, checkpoint);
+    times_.add("checkpoints", saving.seconds());
+  }
+
+  void finish() {
+    if (summary_.interrupted && keeps_checkpoints()) return;
+    const OutputProgress outputs = outputs_->finish();
+    // Before the parts of a bag go, no checkpoint may refer to them any more.
+    if (keeps_checkpoints() && outputs.bag) save_checkpoint(outputs);
+    outputs_->clean_up();
   }
 
   template <typename Reason>
   void skip(std::uint64_t frame, const Reason& reason) {
-    if (report_) report_->write_error(frame, reason.what());
+    outputs_->write_error(frame, reason.what());
     if (!handler_->started()) {
       // The mesh belongs to this frame and no other, so there is nothing to go on with.
       throw Reason(fmt::format("frame {}: {} (--first begins at another frame)", frame, reason.what()));
@@ -166,6 +213,9 @@ class OfflineRun {
         1e-6 * static_cast<double>(process_peak_memory()));
     if (summary_.skipped != 0) out_ << fmt::format("{} frames skipped\n", summary_.skipped);
     if (summary_.interrupted) out_ << "interrupted; what was written so far is complete\n";
+    if (summary_.interrupted && keeps_checkpoints()) {
+      out_ << fmt::format("--resume {} goes on with frame {}\n", options_.checkpoint, next_);
+    }
     out_ << std::flush;
   }
 
@@ -174,12 +224,10 @@ class OfflineRun {
   Stopwatch elapsed_;
   RunMessages messages_;
   ParticleBag bag_;
+  FrameReader frames_;
+  std::uint64_t next_ = 0;
   std::uint64_t last_ = 0;
-  std::optional<MeshSequence> meshes_;
-  std::optional<MeshSequence> surfaces_;
-  std::optional<VdbSequence> fields_;
-  std::optional<ReportWriter> report_;
-  std::optional<TrackingBagWriter> out_bag_;
+  std::optional<RunOutputs> outputs_;
   std::optional<FrameHandler> handler_;
   StageTable times_;
   double writing_seconds_ = 0.0;  // Kept apart to stand last in the table.

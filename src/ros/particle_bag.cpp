@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <boost/make_shared.hpp>
 
-#include "bag_index.h"
+#include "bag_messages.h"
 #include "cloud_message.h"
 #include "particle_surface_tracker/core/error.h"
 
@@ -44,32 +44,19 @@ std::set<std::uint32_t> connections_of(const BagIndex& index, const std::string&
 }  // namespace
 
 struct ParticleBag::Contents {
-  explicit Contents(const std::string& path) : file(path) {}
+  explicit Contents(const std::string& path) : messages(path) {}
 
-  const MemoryBytes& unpacked(std::size_t chunk) {
-    if (chunk != unpacked_chunk) {
-      unpacked_chunk = BagMessage::outside;
-      unpacked_bytes = read_chunk(file, index.chunks[chunk]);
-      unpacked_chunk = chunk;
-    }
-    return unpacked_bytes;
-  }
-
-  FileBytes file;
-  BagIndex index;
+  BagMessages messages;
   std::vector<BagMessage> frames;
-  std::size_t unpacked_chunk = BagMessage::outside;
-  MemoryBytes unpacked_bytes;
 };
 
-ParticleBag::ParticleBag(const std::string& path, const std::string& topic)
-    : contents_(std::make_unique<Contents>(path)) {
+ParticleBag::ParticleBag(const std::string& path, const std::string& topic) {
   try {
-    contents_->index = read_bag_index(contents_->file);
+    contents_ = std::make_unique<Contents>(path);
   } catch (const InputError& error) {
     throw InputError(fmt::format("bag '{}': {}", path, error.what()));
   }
-  const BagIndex& index = contents_->index;
+  const BagIndex& index = contents_->messages.index();
   const std::set<std::uint32_t> connections = connections_of(index, path, topic);
   std::vector<BagMessage>& frames = contents_->frames;
   for (const BagMessage& message : index.messages) {
@@ -91,25 +78,11 @@ std::size_t ParticleBag::size() const {
 }
 
 const std::vector<std::string>& ParticleBag::damage() const {
-  return contents_->index.damage;
+  return contents_->messages.index().damage;
 }
 
 sensor_msgs::PointCloud2ConstPtr ParticleBag::read(std::size_t frame) {
-  const BagMessage& message = contents_->frames.at(frame);
-  const bool in_chunk = message.chunk != BagMessage::outside;
-  const ByteSource& source =
-      in_chunk ? static_cast<const ByteSource&>(contents_->unpacked(message.chunk)) : contents_->file;
-
-  const auto record = read_record(source, message.position);
-  if (!record || message_time(*record) != message.time_ns ||
-      record->fields.number<std::uint32_t>("conn") != message.connection) {
-    throw InputError("the message is not where the index of the bag says");
-  }
-  if (!source.has(record->data_begin, record->data_size)) {
-    throw InputError("the message reaches beyond the end of its chunk");
-  }
-  std::vector<std::uint8_t> bytes(record->data_size);
-  if (!source.read(record->data_begin, bytes.size(), bytes.data())) throw InputError("the message cannot be read");
+  std::vector<std::uint8_t> bytes = contents_->messages.read(contents_->frames.at(frame));
   return read_cloud_message(bytes);
 }
 

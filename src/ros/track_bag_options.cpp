@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ struct RawOptions {
   std::string spacing;
   std::string config;
   std::vector<std::string> settings;
+  std::optional<std::uint64_t> checkpoint_every;
 };
 
 const std::map<std::string, MeshFormat> formats = {
@@ -52,6 +54,22 @@ void add_parameters(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
   app.add_option("--threads", options.threads, "Use at most so many threads; without it all there are")
       ->type_name("N")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1024}));
+  app.add_flag("--pipeline", options.pipeline,
+               "Make the implicit surface of a frame on a thread of its own, while the frame before is tracked");
+}
+
+void add_checkpoints(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
+  app.add_option("--checkpoint", options.checkpoint,
+                 "File that keeps all that is needed to go on, should the run end early")
+      ->type_name("FILE");
+  app.add_option("--checkpoint-every", raw.checkpoint_every, "Frames from one checkpoint to the next")
+      ->type_name("N")
+      ->default_str("10")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--resume", options.resume,
+                 "Go on from this checkpoint, with the other options as they were; --mesh is not read again. "
+                 "Checkpoints are kept in this file unless --checkpoint names another")
+      ->type_name("FILE");
 }
 
 void add_check(CLI::App& app, OfflineOptions& options) {
@@ -116,6 +134,11 @@ void resolve(const RawOptions& raw, OfflineOptions& options) {
   if (!raw.config.empty()) read_parameter_file(raw.config, options.parameters);
   for (const std::string& setting : raw.settings) apply_setting(setting, options.parameters);
   options.estimate_spacing = raw.spacing == "auto";
+  if (options.checkpoint.empty()) options.checkpoint = options.resume;
+  if (raw.checkpoint_every && options.checkpoint.empty()) {
+    throw ParameterError("--checkpoint-every needs --checkpoint or --resume");
+  }
+  options.checkpoint_every = raw.checkpoint_every.value_or(options.checkpoint_every);
   if (!options.estimate_spacing) options.parameters.particle_spacing = read_spacing(raw.spacing);
 }
 
@@ -128,6 +151,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "track_bag " PST_VERSION);
   add_inputs(app, options, raw);
   add_parameters(app, options, raw);
+  add_checkpoints(app, options, raw);
   add_check(app, options);
   add_outputs(app, options);
   app.footer(list_of_parameters);

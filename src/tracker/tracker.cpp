@@ -6,15 +6,14 @@
 #include <fmt/format.h>
 
 #include "band.h"
+#include "implicit_surface_stages.h"
 #include "long_step.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 #include "particle_surface_tracker/stages/advection.h"
 #include "particle_surface_tracker/stages/component_disagreement.h"
-#include "particle_surface_tracker/stages/implicit_function.h"
 #include "particle_surface_tracker/stages/stretched_detail.h"
-#include "particle_surface_tracker/stages/surface_triangulation.h"
 #include "stage_timer.h"
 #include "topology_update.h"
 
@@ -25,26 +24,10 @@ namespace {
 /// Farthest that the isosurface is searched for when δ is measured: details of a first mesh may hold no particle [r].
 constexpr double kInitialReach = 64.0;
 
-/// What a frame leaves behind; replaced as a whole once nothing can fail any more.
-struct Tracked {
-  TriangleMesh mesh;
-  ParticleFrame particles;  // of the last frame that had any
-  std::uint64_t particles_frame = 0;
+/// The last frame; replaced as a whole once nothing can fail any more.
+struct Tracked : TrackedFrame {
   std::shared_ptr<const ImplicitSurface> surface;
-  Detection detection;
-  double band = 0.0;  // largest distance between mesh and isosurface, flagged vertices left out [m]
-  std::size_t original_vertices = 0;
 };
-
-std::shared_ptr<const ImplicitSurface> make_implicit_surface(const ParticleFrame& frame, const Parameters& parameters,
-                                                             StageTimer& timer) {
-  timer.begin("implicit_function");
-  const ParticleGrid grid(frame.positions, implicit_function_cell_size(parameters));
-  auto surface = std::make_shared<ImplicitSurface>(evaluate_implicit_function(grid, parameters));
-  timer.begin("triangulation");
-  surface->triangulation = triangulate_zero_level(*surface->field, surface->dx);
-  return surface;
-}
 
 /// Largest |δ| and |φ(x)| over the vertices that were found and not flagged [m].
 double largest_distance(const TriangleMesh& mesh, const Projection& projection, const Detection& detection) {
@@ -110,6 +93,15 @@ struct Tracker::State {
 
   double r() const { return parameters.particle_spacing; }
   double smallest_reach() const { return parameters.tau * r(); }
+
+  void require_same_cells(const ImplicitSurface& surface) const {
+    const double dx = parameters.dx_phi * r();
+    if (surface.dx == dx) return;
+    throw TrackingError(
+        fmt::format("the implicit surface has cells of {:.9g} m and this tracker wants {:.9g} m; make it with "
+                    "the parameters of the tracker",
+                    surface.dx, dx));
+  }
 
   /// Measures δ of a new mesh and takes it over.
   void begin(TriangleMesh mesh, const ParticleFrame& frame, std::shared_ptr<const ImplicitSurface> surface,
@@ -189,6 +181,13 @@ Tracker::Tracker(const Parameters& parameters) : state_(std::make_unique<State>(
   state_->parameters = parameters;
 }
 
+Tracker::Tracker(const TrackerState& state) : Tracker(state.parameters) {
+  check_tracker_state(state);
+  auto tracked = std::make_unique<Tracked>(Tracked{state.frame, nullptr});
+  tracked->surface = make_implicit_surface(tracked->particles, state.parameters);
+  state_->tracked = std::move(tracked);
+}
+
 Tracker::~Tracker() = default;
 Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
@@ -225,8 +224,23 @@ bool Tracker::started() const {
   return state_->tracked != nullptr;
 }
 
-FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_index) {
+TrackerState Tracker::state() const {
+  require_started();
+  return {state_->parameters, *state_->tracked};
+}
+
+void Tracker::require_started() const {
   if (!started()) throw TrackingError("there is no mesh yet: start with the first frame and its mesh");
+}
+
+FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_index) {
+  return advance(frame, frame_index, nullptr);
+}
+
+FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_index,
+                             std::shared_ptr<const ImplicitSurface> surface) {
+  require_started();
+  if (surface != nullptr) state_->require_same_cells(*surface);
   FrameReport report;
   report.frame = frame_index;
   StageTimer timer(report);
@@ -241,7 +255,7 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     if (state_->parameters.stretched_detail == StretchedDetail::kThin) {
       thin_stretched_detail(next->mesh, state_->tracked->mesh.positions());
     }
-    next->surface = make_implicit_surface(frame, state_->parameters, timer);
+    next->surface = surface != nullptr ? std::move(surface) : make_implicit_surface(frame, state_->parameters, timer);
     NarrowBand band(*next->surface, state_->parameters, timer);
     state_->project_vertices(*next, band, report);
     if (state_->parameters.topology == TopologyMode::kMatch) {

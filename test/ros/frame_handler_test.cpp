@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
 
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
@@ -185,6 +186,123 @@ TEST(FrameHandler, BadParametersAreRefusedAtOnce) {
   EXPECT_NO_THROW(FrameHandler{options});
   options.parameters.epsilon = 2.0;
   EXPECT_THROW(FrameHandler{options}, ParameterError);
+}
+
+Checkpoint saved(const FrameHandler& handler) {
+  Checkpoint checkpoint;
+  handler.save(checkpoint);
+  return checkpoint;
+}
+
+void expect_same_messages(const FrameHandler& a, const FrameHandler& b) {
+  const TrackedMesh x = a.message({true, true});
+  const TrackedMesh y = b.message({true, true});
+  EXPECT_EQ(x.header.stamp, y.header.stamp);
+  EXPECT_EQ(x.header.frame_id, y.header.frame_id);
+  EXPECT_EQ(x.vertices, y.vertices);
+  EXPECT_EQ(x.triangles, y.triangles);
+  EXPECT_EQ(x.normals, y.normals);
+  EXPECT_EQ(x.velocities, y.velocities);
+  EXPECT_EQ(x.delta, y.delta);
+  EXPECT_EQ(x.ids, y.ids);
+  EXPECT_EQ(x.topology_version, y.topology_version);
+}
+
+TEST(FrameHandler, GoesOnFromACheckpointWithTheSameMessages) {
+  FrameHandler handler(ball_options());
+  for (const int n : {0, 1, 2}) handler.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
+  FrameHandlerOptions without_mesh = ball_options();
+  without_mesh.mesh.reset();
+  without_mesh.estimate_spacing = true;
+  FrameHandler resumed(without_mesh);
+  resumed.load(saved(handler));
+  EXPECT_TRUE(resumed.started());
+  EXPECT_FALSE(resumed.message({false, true}).velocities.empty());
+  expect_same_messages(resumed, handler);
+  for (const int n : {3, 4}) {
+    handler.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
+    resumed.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
+    expect_same_messages(resumed, handler);
+  }
+}
+
+TEST(FrameHandler, ACheckpointThatDoesNotFitChangesNothing) {
+  FrameHandler handler(ball_options());
+  handler.handle(ball_cloud(0), 0);
+  const Checkpoint checkpoint = saved(handler);
+  FrameHandlerOptions other = ball_options();
+  other.parameters.dx_phi = 0.4;
+  other.parameters.dx_gamma = 0.6;
+  other.parameters.tau = 0.4;
+  FrameHandler different(other);
+  try {
+    different.load(checkpoint);
+    ADD_FAILURE() << "it was taken over";
+  } catch (const ParameterError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("dx_phi is 0.5 there and 0.4 here"), std::string::npos) << text;
+    EXPECT_NE(text.find("dx_gamma"), std::string::npos) << text;
+    EXPECT_EQ(text.find("tau"), std::string::npos) << "it can change at any time: " << text;
+  }
+  EXPECT_FALSE(different.started());
+
+  Checkpoint foreign = checkpoint;
+  foreign.sections.clear();
+  EXPECT_THROW(handler.load(foreign), InputError);
+  foreign.sections = checkpoint.sections;
+  foreign.sections.begin()->second.pop_back();
+  EXPECT_THROW(handler.load(foreign), InputError);
+  foreign = checkpoint;
+  foreign.tracker.frame.band = -1.0;
+  EXPECT_THROW(handler.load(foreign), TrackingError);
+  EXPECT_EQ(handler.message().header.stamp, ros::Time(1, 0));
+  EXPECT_EQ(handler.message().topology_version, 1u);
+}
+
+TEST(FrameHandler, WhatCanChangeStaysAsItIsHereAndVersionsGoUp) {
+  FrameHandler handler(ball_options());
+  handler.handle(ball_cloud(0), 0);
+  const Checkpoint checkpoint = saved(handler);
+  Parameters parameters = ball_options().parameters;
+  parameters.tau = 0.4;
+  handler.set_parameters(parameters);
+  handler.handle(ball_cloud(1), 1);
+  handler.load(checkpoint);
+  EXPECT_EQ(handler.tracker().parameters().tau, 0.4);
+  EXPECT_EQ(handler.message().header.stamp, ros::Time(1, 0));
+  EXPECT_EQ(handler.message().topology_version, 2u) << "other triangles may have had version 1 since";
+}
+
+TEST(FrameHandler, LookingAheadChangesNothing) {
+  FrameHandler ahead(ball_options());
+  FrameHandler handler(ball_options());
+  std::vector<sensor_msgs::PointCloud2ConstPtr> clouds;
+  for (int n = 0; n < 6; ++n) clouds.push_back(boost::make_shared<sensor_msgs::PointCloud2>(ball_cloud(n)));
+  const auto broken = boost::make_shared<sensor_msgs::PointCloud2>(ball_cloud(2));
+  broken->data.pop_back();
+  clouds[2] = broken;
+  clouds[4] =
+      boost::make_shared<sensor_msgs::PointCloud2>(to_point_cloud(make_particle_frame(2000000000, {}, {}), "tank"));
+  for (std::size_t n = 0; n < clouds.size(); ++n) {
+    if (n + 1 < clouds.size()) ahead.look_ahead(clouds[n + 1]);
+    if (n == 2) {
+      EXPECT_THROW(ahead.handle(*clouds[n], n), InputError);
+      continue;
+    }
+    const FrameReport report = ahead.handle(*clouds[n], n);
+    EXPECT_EQ(report.volume, handler.handle(*clouds[n], n).volume);
+    expect_same_messages(ahead, handler);
+  }
+  // What was looked at is not always what comes.
+  ahead.look_ahead(clouds[0]);
+  ahead.handle(*clouds[1], 6);
+  handler.handle(*clouds[1], 6);
+  ahead.look_ahead(clouds[3]);
+  ahead.reset();
+  handler.reset();
+  ahead.handle(*clouds[0], 0);
+  handler.handle(*clouds[0], 0);
+  expect_same_messages(ahead, handler);
 }
 
 }  // namespace

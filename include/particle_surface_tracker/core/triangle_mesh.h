@@ -43,6 +43,10 @@ class TriangleMesh {
   /// The id that the next new vertex gets: all ids so far are below it.
   std::uint32_t next_id() const { return next_id_; }
 
+  /// Takes the ids below `next_id` for given, to vertices that have gone.
+  /// \throw MeshError if a vertex has a higher one.
+  void reserve_ids(std::uint32_t next_id);
+
   const std::vector<float>& delta() const { return attributes_[delta_].values; }
   std::vector<float>& delta() { return attributes_[delta_].values; }
 

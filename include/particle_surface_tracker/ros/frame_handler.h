@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "particle_surface_tracker/core/frame_report.h"
+#include "particle_surface_tracker/io/checkpoint.h"
 #include "particle_surface_tracker/tracker/tracker.h"
 
 namespace particle_surface_tracker {
@@ -32,6 +34,9 @@ struct MessageContent {
 /// Where vertices were, by id.
 struct VertexPlaces;
 
+class FrameAhead;
+struct PreparedFrame;
+
 /// Turns clouds of particles into tracked meshes: the one piece between messages and tracker, whether the messages come
 /// from a topic or from a bag.
 class FrameHandler {
@@ -45,6 +50,30 @@ class FrameHandler {
   /// \throw ParticleError if the first cloud is empty.
   /// \throw TrackingError as Tracker::start() and Tracker::advance().
   FrameReport handle(const sensor_msgs::PointCloud2& cloud, std::uint64_t frame_index);
+
+  /// Begins to prepare the frame after the next one handled, on a thread of its own: its particles and its implicit
+  /// surface need nothing of the frames before. handle() of the same message, which may be any later call, takes what
+  /// was prepared, with the same result as without. One message can be ahead; another one takes its place. Before the
+  /// first frame nothing is done.
+  void look_ahead(const sensor_msgs::PointCloud2ConstPtr& cloud);
+
+  /// Where the implicit surface of a frame may come from, in place of being made here.
+  /// \return null: it has to be made here.
+  using SurfaceSource = std::function<std::shared_ptr<const ImplicitSurface>(const ParticleFrame& particles,
+                                                                             const Parameters& parameters)>;
+
+  /// handle() asks this for the surface of every frame but the first that is not ahead.
+  void set_surface_source(SurfaceSource source) { surface_source_ = std::move(source); }
+
+  /// Puts into a checkpoint all that the next frame goes on from.
+  /// \pre started().
+  void save(Checkpoint& checkpoint) const;
+
+  /// Goes on from a checkpoint as if the frames before it had been handled here. Parameters that can change while a
+  /// mesh is being tracked stay as they are here; the topology version is above those that messages had here before.
+  /// \throw ParameterError if one that cannot change differs, unless it is a spacing that is estimated.
+  /// \throw InputError if the checkpoint lacks what save() puts into it. Whatever throws changes nothing.
+  void load(const Checkpoint& checkpoint);
 
   /// Forgets what was tracked: the next cloud starts the tracker anew, with the mesh of the options.
   void reset();
@@ -69,6 +98,8 @@ class FrameHandler {
 
  private:
   FrameReport start(const ParticleFrame& frame, std::uint64_t frame_index);
+  PreparedFrame prepare(const sensor_msgs::PointCloud2& cloud);
+  FrameReport advance(PreparedFrame prepared, std::uint64_t frame_index);
 
   FrameHandlerOptions options_;
   std::optional<Tracker> tracker_;
@@ -77,6 +108,8 @@ class FrameHandler {
   std::unique_ptr<VertexPlaces> before_;  // Of the frame before the last.
   std::vector<Triangle> triangles_;       // Of the last frame, to see when they change.
   std::uint32_t topology_version_ = 0;
+  std::unique_ptr<FrameAhead> ahead_;
+  SurfaceSource surface_source_;
 };
 
 }  // namespace particle_surface_tracker

@@ -23,6 +23,7 @@ struct OfflineOptions {
   std::uint64_t first = 0;             ///< Index of the first frame in the bag.
   std::optional<std::uint64_t> last;   ///< Index of the last frame; none: that of the bag.
   std::optional<std::size_t> threads;  ///< At most this many; none: all there are.
+  bool pipeline = false;               ///< Make the implicit surface of a frame while the one before is tracked.
   bool check = false;                  ///< Check the mesh of every frame.
 
   std::string out;  ///< Folder of the mesh sequence.
@@ -31,6 +32,11 @@ struct OfflineOptions {
   std::string vdb;      ///< Folder for φ.
   std::string out_bag;
   std::string report;
+
+  std::string checkpoint;               ///< Where to keep a checkpoint.
+  std::uint64_t checkpoint_every = 10;  ///< Frames from one to the next, at least 1.
+  std::string resume;                   ///< Checkpoint to go on from.
+
   bool quiet = false;     ///< Print errors only.
   bool progress = false;  ///< Keep a line of progress on the terminal.
 };
@@ -43,12 +49,13 @@ struct OfflineSummary {
 };
 
 /// Tracks a mesh through the frames of a bag. A frame that cannot be read or used is said, skipped, and counted.
-/// However the run ends, everything that was written is complete.
+/// However the run ends, everything that was written is complete. One that goes on from a checkpoint writes what it
+/// would have written if it had never ended.
 /// \param stop the run ends after the current frame once this is true.
 /// \param out receives what was found and, at the end, a table of times.
 /// \param err receives warnings and progress.
 /// \throw ParameterError if an option does not fit the bag, or a parameter is invalid.
-/// \throw InputError, MeshError, ParticleError if the bag, mesh or first frame cannot be used.
+/// \throw InputError, MeshError, ParticleError if the bag, mesh, first frame or checkpoint cannot be used.
 /// \throw TrackingError if a frame cannot be tracked, or fails the check that was asked for.
 /// \throw OutputError if something cannot be written.
 OfflineSummary run_offline(const OfflineOptions& options, const std::atomic<bool>& stop, std::ostream& out,

@@ -9,6 +9,7 @@
 #include "particle_surface_tracker/core/particle_frame.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/stages/detection.h"
+#include "particle_surface_tracker/tracker/tracker_state.h"
 
 namespace particle_surface_tracker {
 
@@ -20,6 +21,10 @@ class Tracker {
  public:
   /// \throw ParameterError as check_parameters().
   explicit Tracker(const Parameters& parameters);
+
+  /// Goes on from where another tracker was: every frame from here on is what it would have been there, byte for byte.
+  /// \throw ParameterError, ParticleError, MeshError, TrackingError as check_tracker_state().
+  explicit Tracker(const TrackerState& state);
   ~Tracker();
   Tracker(Tracker&&) noexcept;
   Tracker& operator=(Tracker&&) noexcept;
@@ -44,6 +49,17 @@ class Tracker {
   /// \throw TrackingError if start() has not been called.
   FrameReport advance(const ParticleFrame& frame, std::uint64_t frame_index);
 
+  /// As above, with the implicit surface made before, by make_implicit_surface() from the same particles and
+  /// parameters: the result is the same.
+  /// \param surface null: it is made here. Not looked at where the frame holds no particles.
+  /// \throw TrackingError if start() has not been called, or the surface has other cells than this tracker wants.
+  FrameReport advance(const ParticleFrame& frame, std::uint64_t frame_index,
+                      std::shared_ptr<const ImplicitSurface> surface);
+
+  /// Everything that another tracker needs to go on from here.
+  /// \throw TrackingError if start() has not been called.
+  TrackerState state() const;
+
   const Parameters& parameters() const;
 
   /// Changes parameters between frames.
@@ -60,6 +76,8 @@ class Tracker {
   const Detection& detection() const;
 
  private:
+  void require_started() const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,0 +1,87 @@
+#include "run_outputs.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "particle_surface_tracker/core/error.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+[[noreturn]] void throw_begun_late(const char* option) {
+  throw ParameterError(fmt::format(
+      "{}: the run of the checkpoint was without, so it would lack the frames before; leave it out", option));
+}
+
+}  // namespace
+
+RunOutputs::RunOutputs(const OfflineOptions& options, const OutputProgress* from) {
+  meshes_.emplace(options.out, options.format);
+  if (!options.surface.empty()) surfaces_.emplace(options.surface, MeshFormat::kPly);
+  if (!options.vdb.empty()) fields_.emplace(options.vdb);
+  if (!options.report.empty()) open_report(options, from);
+  if (!options.out_bag.empty()) open_bag(options, from);
+}
+
+void RunOutputs::open_report(const OfflineOptions& options, const OutputProgress* from) {
+  if (from == nullptr) {
+    report_.emplace(options.report);
+  } else if (from->report_bytes) {
+    report_.emplace(options.report, *from->report_bytes);
+  } else {
+    throw_begun_late("--report");
+  }
+}
+
+void RunOutputs::open_bag(const OfflineOptions& options, const OutputProgress* from) {
+  std::error_code not_there;
+  if (std::filesystem::equivalent(options.out_bag, options.bag, not_there)) {
+    throw ParameterError("--out-bag and --bag are the same file");
+  }
+  if (from != nullptr && !from->bag) throw_begun_late("--out-bag");
+  if (from != nullptr) {
+    parts_.emplace(options.out_bag, options.topic, *from->bag);
+  } else if (!options.checkpoint.empty()) {
+    parts_.emplace(options.out_bag, options.topic, BagProgress());
+  } else {
+    bag_.emplace(options.out_bag, options.topic);
+  }
+}
+
+void RunOutputs::write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
+                       const FrameReport& report) {
+  meshes_->write(handler.tracker().mesh(), frame);
+  if (surfaces_) {
+    const SurfaceTriangulation& surface = handler.tracker().implicit_surface()->triangulation;
+    surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame);
+  }
+  if (fields_) fields_->write(*handler.tracker().implicit_surface(), frame);
+  if (bag_) bag_->write(cloud, handler.message());
+  if (parts_) parts_->write(cloud, handler.message());
+  if (report_) report_->write(report);
+}
+
+void RunOutputs::write_error(std::uint64_t frame, const std::string& error) {
+  if (report_) report_->write_error(frame, error);
+}
+
+OutputProgress RunOutputs::settle() {
+  OutputProgress progress;
+  if (report_) progress.report_bytes = report_->bytes();
+  if (parts_) progress.bag = parts_->end_part();
+  return progress;
+}
+
+OutputProgress RunOutputs::finish() {
+  OutputProgress progress = settle();
+  if (bag_) bag_->close();
+  if (parts_) progress.bag = parts_->join();
+  return progress;
+}
+
+void RunOutputs::clean_up() {
+  if (parts_) parts_->remove_parts();
+}
+
+}  // namespace particle_surface_tracker

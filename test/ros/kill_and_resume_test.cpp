@@ -1,0 +1,171 @@
+// A run that is killed and goes on, again and again, ends with the bytes of one that was left alone.
+
+#include <chrono>
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include "killed_run.h"
+#include "particle_surface_tracker/ros/particle_bag.h"
+#include "ros_test_support.h"
+
+namespace particle_surface_tracker::test {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::microseconds;
+
+/// Names of the files that differ.
+std::string differences(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
+  std::string names;
+  for (const auto& [name, bytes] : a) {
+    const auto other = b.find(name);
+    if (other == b.end() || other->second != bytes) names += name + " ";
+  }
+  for (const auto& [name, bytes] : b) {
+    if (a.count(name) == 0) names += name + " ";
+  }
+  return names;
+}
+
+/// Whatever a killed run has left is whole: meshes are those of the end, lines are lines, bags are bags.
+void expect_whole(const std::map<std::string, std::string>& left, const std::map<std::string, std::string>& wanted,
+                  const std::string& folder) {
+  for (const auto& [name, bytes] : left) {
+    if (name == "report.jsonl") {
+      EXPECT_EQ(wanted.at(name).rfind(bytes, 0), 0u) << bytes;
+    } else if (name.find(".parts/") != std::string::npos) {
+      rosbag::Bag bag(folder + "/" + name);
+      EXPECT_GT(rosbag::View(bag).size(), 0u) << name;
+    } else {
+      EXPECT_EQ(bytes, wanted.at(name)) << name;
+    }
+  }
+}
+
+TEST(KillAndResume, TwentyTimesAtRandomMoments) {
+  const KilledRun runs;
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(runs.run("left_alone", {}), 0) << runs.output("left_alone");
+  const auto whole_time = std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now() - begin).count();
+  const auto wanted = runs.files("left_alone");
+  ASSERT_EQ(wanted.size(), 2u * (KilledRun::frames - 1) + 2u);
+
+  const unsigned seed = std::random_device()();
+  std::cout << "seed " << seed << '\n';
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<std::int64_t> moment(0, whole_time);
+  std::uniform_int_distribution<int> interval(1, 5);
+  int kills = 0;
+  int resumed = 0;
+  for (int n = 0; n < 20; ++n) {
+    const std::string name = "killed_" + std::to_string(n);
+    const std::string every = std::to_string(interval(random));
+    for (int attempt = 0;; ++attempt) {
+      std::vector<std::string> arguments = {"--checkpoint", "@/run.checkpoint", "--checkpoint-every", every};
+      if (fs::exists(runs.path(name) + "/run.checkpoint")) {
+        arguments.insert(arguments.end(), {"--resume", "@/run.checkpoint"});
+        ++resumed;
+      }
+      // Three times; then it may go on to its end.
+      const auto end = std::chrono::steady_clock::now() + microseconds(moment(random));
+      const int code = runs.run(name, arguments, [&] { return attempt < 3 && std::chrono::steady_clock::now() > end; });
+      ASSERT_TRUE(code == 0 || code == -1) << runs.output(name);
+      if (code == 0) break;
+      ++kills;
+      expect_whole(runs.files(name), wanted, runs.path(name));
+    }
+    const auto found = runs.files(name);
+    ASSERT_EQ(differences(found, wanted), "") << "run " << n;
+    ASSERT_FALSE(fs::exists(runs.path(name) + "/out.bag.parts"));
+    fs::remove_all(runs.path(name));
+  }
+  std::cout << kills << " kills, " << resumed << " times gone on\n";
+  EXPECT_GT(kills, 10);
+  EXPECT_GT(resumed, 5);
+}
+
+TEST(KillAndResume, WithoutCheckpointsTheBagSoFarCanBeRead) {
+  const KilledRun runs;
+  const std::string part = runs.path("killed") + "/out.bag.part";
+  // What is in a whole chunk is in the file; the first is complete in the middle of the run.
+  constexpr std::uintmax_t more_than_a_chunk = 800000;
+  const int code = runs.run("killed", {}, [&] { return fs::exists(part) && fs::file_size(part) > more_than_a_chunk; });
+  ASSERT_EQ(code, -1) << "the bag is too small for this test";
+  EXPECT_FALSE(fs::exists(runs.path("killed") + "/out.bag"));
+  ParticleBag bag(part, "/particles");
+  EXPECT_GT(bag.size(), 1u);
+  EXPECT_NO_THROW(bag.read(0));
+}
+
+class Resume : public testing::Test {
+ protected:
+  // Tracks the first seven frames, with checkpoints after the fifth and the last.
+  void SetUp() override {
+    ASSERT_EQ(runs_.run("a", {"--last", "6", "--checkpoint", "@/c", "--checkpoint-every", "5"}), 0);
+  }
+
+  void expect_refusal(int code, std::vector<std::string> arguments, const std::string& word) {
+    arguments.insert(arguments.begin(), {"--resume", "@/c"});
+    EXPECT_EQ(runs_.run("a", arguments), code) << word;
+    EXPECT_NE(runs_.output("a").find(word), std::string::npos) << runs_.output("a");
+  }
+
+  KilledRun runs_;
+};
+
+TEST_F(Resume, AFinishedRunCanBeExtended) {
+  ASSERT_EQ(runs_.run("a", {"--resume", "@/c", "--last", "9"}), 0) << runs_.output("a");
+  EXPECT_NE(runs_.output("a").find("going on with frame 7"), std::string::npos) << runs_.output("a");
+  ASSERT_EQ(runs_.run("a", {"--resume", "@/c"}), 0) << runs_.output("a");
+  ASSERT_EQ(runs_.run("a", {"--resume", "@/c"}), 0) << "with nothing left to do: " << runs_.output("a");
+  ASSERT_EQ(runs_.run("b", {}), 0);
+  EXPECT_EQ(differences(runs_.files("a"), runs_.files("b")), "");
+}
+
+TEST_F(Resume, TheSpacingOfARunThatEstimatedItIsThatOfTheCheckpoint) {
+  ASSERT_EQ(runs_.run("a", {"--resume", "@/c", "--spacing", "auto"}), 0) << runs_.output("a");
+  ASSERT_EQ(runs_.run("b", {}), 0);
+  EXPECT_EQ(differences(runs_.files("a"), runs_.files("b")), "");
+}
+
+TEST_F(Resume, WhatDoesNotFitIsSaid) {
+  expect_refusal(1, {"--set", "tau=0.4", "--set", "epsilon=0.5"}, "tau is 0.5 there and 0.4 here");
+  expect_refusal(1, {"--set", "tau=0.4", "--set", "epsilon=0.5"}, "epsilon is 0.35 there and 0.5 here");
+  expect_refusal(1, {"--spacing", "0.21"}, "particle_spacing is 0.2 there and 0.21 here");
+  expect_refusal(1, {"--first", "1"}, "began with frame 0");
+  expect_refusal(1, {"--last", "3"}, "goes on with frame 7");
+  expect_refusal(2, {"--report", "@/other.jsonl"}, "other.jsonl");
+  expect_refusal(2, {"--out-bag", "@/other.bag"}, "other.bag");
+  write_numbered_bag(runs_.path("other.bag"), 16, 50);
+  expect_refusal(2, {"--bag", runs_.path("other.bag")}, "frame 6");
+  // None of this has harmed what there was.
+  ASSERT_EQ(runs_.run("a", {"--resume", "@/c"}), 0) << runs_.output("a");
+  ASSERT_EQ(runs_.run("b", {}), 0);
+  EXPECT_EQ(differences(runs_.files("a"), runs_.files("b")), "");
+}
+
+TEST_F(Resume, WhatIsNoCheckpointIsSaid) {
+  write_file(runs_.path("a") + "/c", "nothing");
+  expect_refusal(2, {}, "no checkpoint");
+  fs::remove(runs_.path("a") + "/c");
+  expect_refusal(2, {}, "No such file");
+  EXPECT_EQ(runs_.run("a", {"--checkpoint-every", "3"}), 1);
+  EXPECT_EQ(runs_.run("a", {"--checkpoint", "@/c", "--checkpoint-every", "0"}), 1);
+  EXPECT_EQ(runs_.run("a", {"--checkpoint", "@/missing/c"}), 4) << runs_.output("a");
+}
+
+TEST_F(Resume, APipelineChangesNoByte) {
+  ASSERT_EQ(runs_.run("b", {}), 0);
+  ASSERT_EQ(runs_.run("c", {"--pipeline"}), 0);
+  EXPECT_EQ(differences(runs_.files("c"), runs_.files("b")), "");
+  ASSERT_EQ(runs_.run("a", {"--resume", "@/c", "--pipeline"}), 0) << runs_.output("a");
+  EXPECT_EQ(differences(runs_.files("a"), runs_.files("b")), "");
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker::test
