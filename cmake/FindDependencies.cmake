@@ -2,6 +2,9 @@
 
 # Not where ROS is turned off: catkin does more than look whether it is there.
 if(NOT DEFINED PST_WITH_ROS OR PST_WITH_ROS)
+  # Before catkin is asked for the first time: it keeps the environment that it finds then, in which tests in Python
+  # import our messages from here.
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages)
   find_package(catkin QUIET)
 endif()
 set(PST_CATKIN_FOUND ${catkin_FOUND})

@@ -1,8 +1,5 @@
 # The catkin side of the package.
 
-# Before find_package: catkin caches its environment at the first configure, and a Python rostest imports messages from here.
-file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages)
-
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_msgs diagnostic_updater dynamic_reconfigure message_generation nodelet pluginlib rosbag_storage roscpp
   roscpp_serialization roslz4 rostime sensor_msgs shape_msgs std_msgs std_srvs topic_tools visualization_msgs)
