@@ -133,7 +133,8 @@ void disagreement(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
   const MatchingInput input(body);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(find_disagreement(input.lattice, input.delta, input.surface, body.parameters));
+    benchmark::DoNotOptimize(find_disagreement(input.lattice, input.delta,
+                                               IsosurfaceQuery(input.surface, input.lattice.h()), body.parameters));
   }
 }
 
@@ -144,7 +145,9 @@ void match(benchmark::State& state, MatchingSolver solver, double reach) {
   parameters.matching_solver = solver;
   parameters.matching_reach = reach;
   MatchedVoxelization matched;
-  for (auto _ : state) matched = match_topology(input.lattice, input.surface, input.flagged, parameters);
+  for (auto _ : state)
+    matched =
+        match_topology(input.lattice, IsosurfaceQuery(input.surface, input.lattice.h()), input.flagged, parameters);
   state.counters["unknowns"] = static_cast<double>(matched.statistics.unknowns);
   state.counters["iterations"] = matched.statistics.iterations;
 }
