@@ -133,7 +133,7 @@ void disagreement(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
   const MatchingInput input(body);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(find_disagreement(input.lattice, input.delta,
+    benchmark::DoNotOptimize(find_disagreement(MeshQuery(input.lattice), input.delta,
                                                IsosurfaceQuery(input.surface, input.lattice.h()), body.parameters));
   }
 }
@@ -146,8 +146,8 @@ void match(benchmark::State& state, MatchingSolver solver, double reach) {
   parameters.matching_reach = reach;
   MatchedVoxelization matched;
   for (auto _ : state)
-    matched =
-        match_topology(input.lattice, IsosurfaceQuery(input.surface, input.lattice.h()), input.flagged, parameters);
+    matched = match_topology(MeshQuery(input.lattice), IsosurfaceQuery(input.surface, input.lattice.h()), input.flagged,
+                             parameters);
   state.counters["unknowns"] = static_cast<double>(matched.statistics.unknowns);
   state.counters["iterations"] = matched.statistics.iterations;
 }

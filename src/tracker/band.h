@@ -29,6 +29,9 @@ class NarrowBand {
   Projection project(const std::vector<Vec3f>& vertices, const std::vector<float>& delta, double reach,
                      double max_reach);
 
+  /// The cells of the isosurface.
+  const std::shared_ptr<const SurfaceCells>& cells() const { return fields_.cells(); }
+
  private:
   const Parameters& parameters_;
   StageTimer& timer_;

@@ -84,7 +84,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   const double r = parameters.particle_spacing;
   const double h = parameters.dx_gamma * r;
   const std::uint32_t first_new_id = mesh.next_id();
-  const IsosurfaceQuery isosurface(surface, h);
+  const IsosurfaceQuery isosurface(surface, h, band.cells());
   timer.begin("topology_matching");
   ComponentDisagreement pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
   std::vector<Vec3f> uncovered;
@@ -92,22 +92,23 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     timer.begin("voxelization");
     const MeshLattice lattice(mesh.positions(), mesh.triangles(), h);
     timer.begin("topology_matching");
+    const MeshQuery before(lattice);
     Cells flagged = united(pieces.bridge_cells, pieces.scrap_cells);
     if (pass == 0) {
-      const Disagreement disagreement = find_disagreement(lattice, mesh.delta(), isosurface, parameters);
+      const Disagreement disagreement = find_disagreement(before, mesh.delta(), isosurface, parameters);
       report.topology.disagreeing_nodes = disagreement.nodes.size();
       flagged = united(united(flagged, detection.flagged_cells), disagreement.flagged_cells);
-      uncovered = find_uncovered_particles(particles, lattice, {}, mesh, isosurface, kCover * r, parameters);
+      uncovered = find_uncovered_particles(particles, before, {}, mesh, isosurface, kCover * r, parameters);
     }
     // Where matching alone has not helped, detail gives way.
     if (pass > 0) pieces.scrap_cells = flagged;
-    const Cells at_conflicts = find_conflicting_nodes(lattice, pieces, uncovered, isosurface, parameters);
+    const Cells at_conflicts = find_conflicting_nodes(before, pieces, uncovered, isosurface, parameters);
     report.topology.uncovered_particles += uncovered.size();
     report.topology.conflicting_nodes += at_conflicts.size();
     ++report.topology.passes;
     RemeshingRequest request;
     request.flagged_cells = flagged;
-    MatchedVoxelization matched = match_topology(lattice, isosurface, flagged, parameters, at_conflicts);
+    MatchedVoxelization matched = match_topology(before, isosurface, flagged, parameters, at_conflicts);
     describe(matched, report.topology);
     report.flagged_cells += flagged.size();
     request.nodes = matched.nodes;
@@ -124,7 +125,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
     uncovered.clear();
     if (pass == 0) {
-      uncovered = find_uncovered_particles(particles, lattice, matched, mesh, isosurface, r, parameters);
+      uncovered = find_uncovered_particles(particles, before, matched, mesh, isosurface, r, parameters);
     }
     if (pieces.none() && uncovered.empty()) break;
   }

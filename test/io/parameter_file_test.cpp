@@ -1,30 +1,20 @@
 #include "particle_surface_tracker/io/parameter_file.h"
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker {
 namespace {
 
 class ParameterFile : public testing::Test {
- public:
-  ~ParameterFile() override { std::filesystem::remove_all(folder_); }
-
  protected:
-  ParameterFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "pst_test_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    path_ = (folder_ / "a.yaml").string();
-  }
-
   Parameters read(const std::string& text) {
-    std::ofstream(path_) << text;
+    folder_.write("a.yaml", text);
     Parameters parameters;
     read_parameter_file(path_, parameters);
     return parameters;
@@ -43,8 +33,8 @@ class ParameterFile : public testing::Test {
     }
   }
 
-  std::filesystem::path folder_;
-  std::string path_;
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_ / "a.yaml";
 };
 
 TEST_F(ParameterFile, SetsWhatItNamesAndNothingElse) {
@@ -83,8 +73,8 @@ TEST_F(ParameterFile, WhatCannotBeReadIsAnInputError) {
   expect_error<InputError>("tau: [0.5\n", {"line", "YAML"});
   expect_error<InputError>("tau: 0.5\n  epsilon: 1\n", {"line 2", "YAML"});
   Parameters parameters;
-  EXPECT_THROW(read_parameter_file((folder_ / "missing.yaml").string(), parameters), InputError);
-  EXPECT_THROW(read_parameter_file(folder_.string(), parameters), Error);
+  EXPECT_THROW(read_parameter_file(folder_ / "missing.yaml", parameters), InputError);
+  EXPECT_THROW(read_parameter_file(folder_.path().string(), parameters), Error);
 }
 
 TEST_F(ParameterFile, AnErrorLeavesTheParametersAlone) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "particle_surface_tracker/core/error.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -128,21 +129,18 @@ TEST(ReportWriter, TextThatIsNotUnicodeIsStillJson) {
 }
 
 TEST(ReportWriter, EveryLineIsInTheFileAtOnce) {
-  std::string name = (std::filesystem::temp_directory_path() / "pst_test_XXXXXX").string();
-  const std::filesystem::path folder = mkdtemp(name.data());
+  const test::TemporaryFolder folder;
   const auto content = [&folder] {
     std::ifstream file(folder / "a.jsonl");
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
-  std::ofstream(folder / "a.jsonl") << "old text\n";
-  ReportWriter writer((folder / "a.jsonl").string());
+  ReportWriter writer(folder.write("a.jsonl", "old text\n"));
   writer.write(example());
   EXPECT_EQ(content(), report_line(example()) + "\n");
   writer.write_error(13, "broken");
   EXPECT_EQ(content(), report_line(example()) + "\n{\"frame\":13,\"error\":\"broken\"}\n");
-  EXPECT_THROW(ReportWriter((folder / "missing/a.jsonl").string()), OutputError);
-  EXPECT_THROW(ReportWriter(folder.string()), OutputError);
-  std::filesystem::remove_all(folder);
+  EXPECT_THROW(ReportWriter(folder / "missing/a.jsonl"), OutputError);
+  EXPECT_THROW(ReportWriter(folder.path().string()), OutputError);
 }
 
 TEST(ReportWriter, AFullDiskIsAnError) {

@@ -12,18 +12,13 @@
 #include "particle_surface_tracker/tracker/make_implicit_surface.h"
 #include "ros/surface/surface_identity.h"
 #include "ros_test_support.h"
+#include "support/parameters.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker::test {
 namespace {
 
 constexpr double r = 0.1;
-
-Parameters parameters() {
-  Parameters p;
-  p.particle_spacing = r;
-  return p;
-}
 
 /// A ball around the origin, so that coordinates of all signs occur, and a drop far away.
 ParticleFrame particles() {
@@ -38,7 +33,8 @@ ParticleSurface message() {
   std_msgs::Header header;
   header.stamp = ros::Time(5, 0);
   header.frame_id = "tank";
-  return to_surface_message(header, *make_implicit_surface(particles(), parameters()), particles(), parameters());
+  return to_surface_message(header, *make_implicit_surface(particles(), parameters_with_spacing(r)), particles(),
+                            parameters_with_spacing(r));
 }
 
 /// Whether two lattices have the same nodes with the same values, and the same everywhere else.
@@ -54,7 +50,7 @@ void expect_same(const openvdb::FloatGrid& a, const openvdb::FloatGrid& b) {
 }
 
 TEST(SurfaceConversion, KeepsEveryBit) {
-  const auto surface = make_implicit_surface(particles(), parameters());
+  const auto surface = make_implicit_surface(particles(), parameters_with_spacing(r));
   const ParticleSurface sent = message();
   EXPECT_EQ(sent.header.frame_id, "tank");
   EXPECT_EQ(sent.particles, particles().size());
@@ -68,20 +64,22 @@ TEST(SurfaceConversion, KeepsEveryBit) {
     ASSERT_EQ(back->triangulation.cells[n].origin, surface->triangulation.cells[n].origin);
     ASSERT_EQ(back->triangulation.cells[n].first_triangle, surface->triangulation.cells[n].first_triangle);
   }
-  EXPECT_NO_THROW(require_made_of(sent, particles(), parameters()));
+  EXPECT_NO_THROW(require_made_of(sent, particles(), parameters_with_spacing(r)));
 }
 
 TEST(SurfaceConversion, OtherParticlesAndParametersAreSaid) {
   ParticleFrame moved = particles();
   moved.positions[7].x() = std::nextafter(moved.positions[7].x(), 10.0F);
-  EXPECT_NE(error_of<InputError>([&] { require_made_of(message(), moved, parameters()); }).find("other particles"),
+  EXPECT_NE(error_of<InputError>([&] {
+              require_made_of(message(), moved, parameters_with_spacing(r));
+            }).find("other particles"),
             std::string::npos);
-  Parameters other = parameters();
+  Parameters other = parameters_with_spacing(r);
   other.surface_radius = 1.03;
   const std::string text = error_of<InputError>([&] { require_made_of(message(), particles(), other); });
   EXPECT_NE(text.find("surface_radius=1.04"), std::string::npos) << text;
   EXPECT_NE(text.find("surface_radius=1.03"), std::string::npos) << text;
-  other = parameters();
+  other = parameters_with_spacing(r);
   other.tau = 0.1;
   EXPECT_NO_THROW(require_made_of(message(), particles(), other)) << "the surface does not depend on it";
 }
@@ -93,7 +91,7 @@ TEST(SurfaceConversion, TheParametersNamedAreThoseThatTheSurfaceDependsOn) {
                                                      {"eigenvalue_low", "0.2"},    {"eigenvalue_high", "1.5"}};
   const ParticleSurface standard = message();
   for (const ParameterInfo& info : parameter_table()) {
-    Parameters changed = parameters();
+    Parameters changed = parameters_with_spacing(r);
     const bool is_named = others.count(info.name) != 0;
     if (is_named) {
       set_parameter(changed, info.name, others.at(info.name));

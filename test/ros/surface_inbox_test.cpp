@@ -8,6 +8,7 @@
 #include "particle_surface_tracker/ros/time_conversion.h"
 #include "particle_surface_tracker/tracker/make_implicit_surface.h"
 #include "ros/surface/surface_conversion.h"
+#include "support/parameters.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker::test {
@@ -17,12 +18,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr double r = 0.1;
-
-Parameters parameters() {
-  Parameters p;
-  p.particle_spacing = r;
-  return p;
-}
 
 ParticleFrame frame_of(int n) {
   ParticleFrame frame = fill_with_particles(Vec3d::Constant(-0.3), Vec3d::Constant(0.3), r, 0.1, 1,
@@ -36,7 +31,8 @@ ParticleSurfaceConstPtr surface_of(int n) {
   std_msgs::Header header;
   header.stamp = to_ros_time(frame_of(n).stamp_ns);
   return boost::make_shared<ParticleSurface>(
-      to_surface_message(header, *make_implicit_surface(frame_of(n), parameters()), frame_of(n), parameters()));
+      to_surface_message(header, *make_implicit_surface(frame_of(n), parameters_with_spacing(r)), frame_of(n),
+                         parameters_with_spacing(r)));
 }
 
 struct Complaints {
@@ -51,10 +47,10 @@ TEST(SurfaceInbox, SurfacesWaitForTheirFrameInAnyOrder) {
   SurfaceInbox inbox(10, seconds(20), complaints.note());
   for (const int n : {2, 0, 1}) inbox.receive(surface_of(n));
   for (const int n : {0, 1, 2}) {
-    const auto surface = inbox.wait_for(frame_of(n), parameters());
+    const auto surface = inbox.wait_for(frame_of(n), parameters_with_spacing(r));
     ASSERT_NE(surface, nullptr) << n;
     EXPECT_EQ(surface->triangulation.vertices,
-              make_implicit_surface(frame_of(n), parameters())->triangulation.vertices);
+              make_implicit_surface(frame_of(n), parameters_with_spacing(r))->triangulation.vertices);
   }
   EXPECT_EQ(inbox.taken(), 3u);
   EXPECT_EQ(inbox.missed(), 0u);
@@ -69,25 +65,26 @@ TEST(SurfaceInbox, AFrameWaitsForItsSurface) {
     std::this_thread::sleep_for(milliseconds(50));
     inbox.receive(late);
   });
-  EXPECT_NE(inbox.wait_for(frame_of(0), parameters()), nullptr);
+  EXPECT_NE(inbox.wait_for(frame_of(0), parameters_with_spacing(r)), nullptr);
   sender.join();
 }
 
 TEST(SurfaceInbox, WhatDoesNotComeOrFitIsMissedAndSaid) {
   Complaints complaints;
   SurfaceInbox inbox(10, milliseconds(10), complaints.note());
-  EXPECT_EQ(inbox.wait_for(frame_of(0), parameters()), nullptr);
+  EXPECT_EQ(inbox.wait_for(frame_of(0), parameters_with_spacing(r)), nullptr);
   inbox.receive(surface_of(1));
   ParticleFrame others = frame_of(1);
   others.positions[0].x() += 0.01F;
-  EXPECT_EQ(inbox.wait_for(others, parameters()), nullptr);
+  EXPECT_EQ(inbox.wait_for(others, parameters_with_spacing(r)), nullptr);
   inbox.receive(surface_of(2));
-  Parameters finer = parameters();
+  Parameters finer = parameters_with_spacing(r);
   finer.dx_phi = 0.4;
   EXPECT_EQ(inbox.wait_for(frame_of(2), finer), nullptr);
   inbox.receive(surface_of(1));
   inbox.receive(surface_of(3));
-  EXPECT_NE(inbox.wait_for(frame_of(3), parameters()), nullptr) << "one that came too late is in the way of nobody";
+  EXPECT_NE(inbox.wait_for(frame_of(3), parameters_with_spacing(r)), nullptr)
+      << "one that came too late is in the way of nobody";
   EXPECT_EQ(inbox.missed(), 3u);
   ASSERT_EQ(complaints.texts.size(), 3u);
   EXPECT_NE(complaints.texts[0].find("0.01 s"), std::string::npos) << complaints.texts[0];
@@ -100,13 +97,13 @@ TEST(SurfaceInbox, WhereTooManyWaitTheNewestGiveWayAndNobodyWaitsForThem) {
   SurfaceInbox inbox(2, seconds(60), complaints.note());
   for (const int n : {0, 3, 1, 2}) inbox.receive(surface_of(n));
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_NE(inbox.wait_for(frame_of(0), parameters()), nullptr);
-  EXPECT_NE(inbox.wait_for(frame_of(1), parameters()), nullptr);
-  EXPECT_EQ(inbox.wait_for(frame_of(2), parameters()), nullptr);
-  EXPECT_EQ(inbox.wait_for(frame_of(3), parameters()), nullptr);
+  EXPECT_NE(inbox.wait_for(frame_of(0), parameters_with_spacing(r)), nullptr);
+  EXPECT_NE(inbox.wait_for(frame_of(1), parameters_with_spacing(r)), nullptr);
+  EXPECT_EQ(inbox.wait_for(frame_of(2), parameters_with_spacing(r)), nullptr);
+  EXPECT_EQ(inbox.wait_for(frame_of(3), parameters_with_spacing(r)), nullptr);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(30));
   inbox.receive(surface_of(4));
-  EXPECT_NE(inbox.wait_for(frame_of(4), parameters()), nullptr);
+  EXPECT_NE(inbox.wait_for(frame_of(4), parameters_with_spacing(r)), nullptr);
 }
 
 TEST(SurfaceInbox, ClosingEndsTheWaiting) {
@@ -116,7 +113,7 @@ TEST(SurfaceInbox, ClosingEndsTheWaiting) {
     std::this_thread::sleep_for(milliseconds(20));
     inbox.close();
   });
-  EXPECT_EQ(inbox.wait_for(frame_of(0), parameters()), nullptr);
+  EXPECT_EQ(inbox.wait_for(frame_of(0), parameters_with_spacing(r)), nullptr);
   closer.join();
 }
 

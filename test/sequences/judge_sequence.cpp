@@ -13,6 +13,7 @@
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "sequences/frame_judgement.h"
+#include "sequences/judged_tracking.h"
 #include "sequences/sequence_data.h"
 #include "sequences/topology_figures.h"
 
@@ -63,21 +64,17 @@ std::vector<pst::ParticleFrame> read_frames(const Options& options) {
 }
 
 void judge_topology(const Options& options) {
-  const pst::TriangleMesh mesh = pst::read_initial_mesh(options.mesh).mesh;
-  const std::vector<pst::ParticleFrame> frames = read_frames(options);
+  const pst::test::Sequence sequence{options.parameters.particle_spacing, pst::read_initial_mesh(options.mesh).mesh,
+                                     read_frames(options)};
   std::ofstream csv(options.csv);
   csv << pst::test::topology_csv_header() << "\n";
   std::cout << pst::test::topology_header() << std::endl;
-
-  pst::Tracker tracker(options.parameters);
-  pst::test::TopologyFigureTaker taker(tracker);
-  std::vector<pst::test::TopologyFigures> figures;
-  for (std::size_t n = 0; n < frames.size(); n += options.every) {
-    const pst::FrameReport report = n == 0 ? tracker.start(mesh, frames[n]) : tracker.advance(frames[n], n);
-    figures.push_back(taker.take(frames[n], report));
-    std::cout << pst::test::topology_row(figures.back(), figures.front()) << std::endl;
-    csv << pst::test::topology_csv_row(figures.back(), figures.front()) << std::endl;
-  }
+  const auto figures =
+      pst::test::track_and_judge(sequence, options.parameters, options.every,
+                                 [&](const pst::test::TopologyFigures& frame, const pst::test::TopologyFigures& first) {
+                                   std::cout << pst::test::topology_row(frame, first) << std::endl;
+                                   csv << pst::test::topology_csv_row(frame, first) << std::endl;
+                                 });
   const std::string name = std::filesystem::path(options.mesh).stem().string();
   std::cout << pst::test::summary_of(name, figures, pst::test::limits_for(name)) << std::flush;
 }

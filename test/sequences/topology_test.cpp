@@ -6,31 +6,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "particle_surface_tracker/tracker/tracker.h"
-#include "sequences/sequence_data.h"
-#include "sequences/topology_figures.h"
+#include "sequences/judged_tracking.h"
 
 namespace particle_surface_tracker::test {
 
 namespace {
 
 class Topology : public testing::TestWithParam<std::string> {};
-
-std::vector<TopologyFigures> track_and_judge(const Sequence& sequence) {
-  Parameters parameters;
-  parameters.particle_spacing = sequence.spacing;
-  Tracker tracker(parameters);
-  TopologyFigureTaker taker(tracker);
-  std::vector<TopologyFigures> figures;
-  fmt::print("{}\n", topology_header());
-  for (std::size_t n = 0; n < sequence.frames.size(); ++n) {
-    const ParticleFrame& frame = sequence.frames[n];
-    const FrameReport report = n == 0 ? tracker.start(sequence.mesh, frame) : tracker.advance(frame, n);
-    figures.push_back(taker.take(frame, report));
-    fmt::print("{}\n", topology_row(figures.back(), figures.front()));
-  }
-  return figures;
-}
 
 }  // namespace
 

@@ -5,18 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "stages/detection/triangle_cells.h"
+#include "support/parameters.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
 namespace {
 
 constexpr double r = 0.1;
-
-Parameters parameters() {
-  Parameters p;
-  p.particle_spacing = r;
-  return p;
-}
 
 /// A projection that moves every vertex of a mesh by `step`.
 Projection moved_by(const TriangleMesh& mesh, const Vec3f& step) {
@@ -30,7 +25,7 @@ Projection moved_by(const TriangleMesh& mesh, const Vec3f& step) {
 TEST(Detection, BelowTauVerticesMoveAndNothingIsFlagged) {
   TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 0.5, 2);
   const Projection projection = moved_by(mesh, {0.04f, 0, 0});
-  const Detection detection = apply_projection(mesh, projection, parameters());
+  const Detection detection = apply_projection(mesh, projection, test::parameters_with_spacing(r));
   EXPECT_TRUE(detection.flagged_vertices.empty());
   EXPECT_TRUE(detection.flagged_cells.empty());
   EXPECT_EQ(mesh.positions(), projection.positions);
@@ -42,7 +37,7 @@ TEST(Detection, AboveTauAVertexIsPutBackAndTheCellsOfItsTrianglesAreFlagged) {
   Projection projection = moved_by(mesh, Vec3f::Zero());
   projection.positions[7] += Vec3f(0, 0.0501f, 0);
   projection.positions[8] += Vec3f(0, 0.0499f, 0);
-  const Detection detection = apply_projection(mesh, projection, parameters());
+  const Detection detection = apply_projection(mesh, projection, test::parameters_with_spacing(r));
   ASSERT_EQ(detection.flagged_vertices, std::vector<std::uint32_t>{7});
   EXPECT_EQ(mesh.positions()[7], before[7]);
   EXPECT_EQ(mesh.positions()[8], projection.positions[8]);
@@ -76,7 +71,7 @@ TEST(Detection, AVertexWithoutSurfaceIsFlaggedAndStays) {
   Projection projection = moved_by(mesh, Vec3f::Zero());
   projection.status[2] = ProjectionStatus::kAbsent;
   projection.status[5] = ProjectionStatus::kNotFound;
-  const Detection detection = apply_projection(mesh, projection, parameters());
+  const Detection detection = apply_projection(mesh, projection, test::parameters_with_spacing(r));
   EXPECT_EQ(detection.flagged_vertices, (std::vector<std::uint32_t>{2, 5}));
   EXPECT_EQ(detection.unreached_vertices, 2u);
   EXPECT_EQ(mesh.positions(), before);

@@ -70,6 +70,15 @@ void move_vertices(TriangleMesh& mesh, Motion&& motion) {
   for (Vec3f& position : mesh.positions()) position = motion(Vec3d(position.cast<double>())).template cast<float>();
 }
 
+inline TriangleMesh make_tetrahedron(double size) {
+  const auto s = static_cast<float>(size);
+  return TriangleMesh({{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
+}
+
+inline void scale(TriangleMesh& mesh, const Vec3d& factors) {
+  move_vertices(mesh, [&](const Vec3d& x) { return Vec3d(x.cwiseProduct(factors)); });
+}
+
 inline double volume_of(const TriangleMesh& mesh) {
   return enclosed_volume(mesh.positions(), mesh.triangles());
 }

@@ -38,15 +38,6 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TriangleMesh make_tetrahedron(double size) {
-  const auto s = static_cast<float>(size);
-  return TriangleMesh({{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
-}
-
-void scale(TriangleMesh& mesh, const Vec3d& factors) {
-  test::move_vertices(mesh, [&](const Vec3d& x) { return Vec3d(x.cwiseProduct(factors)); });
-}
-
 void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
   EXPECT_EQ(a.positions(), b.positions());
   EXPECT_EQ(a.triangles(), b.triangles());
@@ -90,7 +81,7 @@ TEST(Upkeep, LeavesNeedlesCapsFoldsAndTinyTrianglesOfBirthAlone) {
   // All limits are far beyond what this mesh has, but it was born so.
   TriangleMesh mesh =
       test::joined({test::make_box({0, 0, 0}, {1, 0.001, 1}), test::make_torus({3, 0, 0}, 1, 0.01, 8, 40),
-                    test::make_sphere({0, 3, 0}, 1e-4, 4), make_tetrahedron(50.0)});
+                    test::make_sphere({0, 3, 0}, 1e-4, 4), test::make_tetrahedron(50.0)});
   test::move_vertices(mesh, [](const Vec3d& x) { return Vec3d(x.x(), 0.02 * x.y(), x.z() + 30.0 * x.x()); });
   ASSERT_LT(test::shape_of(mesh).smallest_angle, 0.01);
   ASSERT_GT(test::shape_of(mesh).largest_fold, 178.0);
@@ -113,9 +104,9 @@ TEST(Upkeep, AllocatesNothingWhenThereIsNothingToDo) {
 }
 
 TEST(Upkeep, SplitsEveryEdgeOfAGrownTetrahedronOnceAtItsMidpoint) {
-  TriangleMesh mesh = make_tetrahedron(1.0);
+  TriangleMesh mesh = test::make_tetrahedron(1.0);
   note_birth(mesh);
-  scale(mesh, Vec3d::Constant(2.125));
+  test::scale(mesh, Vec3d::Constant(2.125));
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.1));
   EXPECT_EQ(report.splits, 6U);
   EXPECT_EQ(mesh.vertex_count(), 10U);
@@ -130,22 +121,22 @@ TEST(Upkeep, SplitsEveryEdgeOfAGrownTetrahedronOnceAtItsMidpoint) {
     middles.insert({p.x(), p.y(), p.z()});
   }
   EXPECT_EQ(middles.size(), 6U);
-  EXPECT_EQ(test::volume_of(mesh), test::volume_of(make_tetrahedron(2.125)));
+  EXPECT_EQ(test::volume_of(mesh), test::volume_of(test::make_tetrahedron(2.125)));
 }
 
 TEST(Upkeep, BothLimitsOfASplitMustBePassed) {
-  TriangleMesh mesh = make_tetrahedron(1.0);
+  TriangleMesh mesh = test::make_tetrahedron(1.0);
   note_birth(mesh);
-  scale(mesh, Vec3d::Constant(1.984375));
+  test::scale(mesh, Vec3d::Constant(1.984375));
   EXPECT_FALSE(keep_up(mesh, test::parameters_for_cells_of(0.1)).has_changes()) << "not twice the length at birth";
-  scale(mesh, Vec3d::Constant(8.0));
+  test::scale(mesh, Vec3d::Constant(8.0));
   EXPECT_FALSE(keep_up(mesh, test::parameters_for_cells_of(100.0)).has_changes()) << "not longer than 1.5 h";
 }
 
 TEST(Upkeep, LeavesAComponentAloneThatIsTooSmall) {
-  TriangleMesh mesh = make_tetrahedron(1.0);
+  TriangleMesh mesh = test::make_tetrahedron(1.0);
   note_birth(mesh);
-  scale(mesh, Vec3d::Constant(1e-3));
+  test::scale(mesh, Vec3d::Constant(1e-3));
   const TriangleMesh before = mesh;
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(1.0));
   EXPECT_EQ(report.refused, 6U);
@@ -153,9 +144,9 @@ TEST(Upkeep, LeavesAComponentAloneThatIsTooSmall) {
 }
 
 TEST(Upkeep, NeverShrinksAComponentBelowATetrahedron) {
-  TriangleMesh mesh = test::joined({test::make_sphere(Vec3d::Zero(), 1.0, 3), make_tetrahedron(9.0)});
+  TriangleMesh mesh = test::joined({test::make_sphere(Vec3d::Zero(), 1.0, 3), test::make_tetrahedron(9.0)});
   note_birth(mesh);
-  scale(mesh, Vec3d::Constant(1e-3));
+  test::scale(mesh, Vec3d::Constant(1e-3));
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(1.0));
   EXPECT_GT(report.collapses, 0U);
   EXPECT_GE(mesh.vertex_count(), 8U);
@@ -231,7 +222,7 @@ struct Offsets {
 TEST(Upkeep, PutsNewVerticesOnTheSmoothSurfaceOfARegularMesh) {
   TriangleMesh mesh = test::make_torus(Vec3d::Zero(), 1.0, 0.4, 100, 40);
   note_birth(mesh);
-  scale(mesh, Vec3d::Constant(2.0625));
+  test::scale(mesh, Vec3d::Constant(2.0625));
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.05));
   EXPECT_EQ(report.splits, 4000U) << "the longest edge of every vertex: the diagonals, each once";
   const Offsets offsets(
@@ -243,7 +234,7 @@ TEST(Upkeep, PutsNewVerticesOnTheSmoothSurfaceOfARegularMesh) {
 TEST(Upkeep, PutsNewVerticesNearTheSmoothSurfaceOfAnIrregularMesh) {
   TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 1.0, 4);
   note_birth(mesh);
-  scale(mesh, Vec3d::Constant(2.5));
+  test::scale(mesh, Vec3d::Constant(2.5));
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.1));
   ASSERT_GT(report.splits, 1000U);
   const Offsets offsets(mesh, report, [](const Vec3d& x) { return x.norm() - 2.5; });
@@ -329,55 +320,15 @@ TEST(Upkeep, GivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST(Upkeep, RefusesMeshesThatAreNotClosedManifolds) {
   const Parameters parameters = test::parameters_for_cells_of(1.0);
-  TriangleMesh open = make_tetrahedron(1.0);
+  TriangleMesh open = test::make_tetrahedron(1.0);
   open.set_triangles({{0, 1, 2}, {0, 3, 1}, {0, 2, 3}});
   EXPECT_THROW(keep_up(open, parameters), MeshError);
   // Two tetrahedra that touch in a vertex.
-  TriangleMesh pinched = test::joined({make_tetrahedron(1.0), make_tetrahedron(2.0)});
+  TriangleMesh pinched = test::joined({test::make_tetrahedron(1.0), test::make_tetrahedron(2.0)});
   std::vector<Triangle> triangles = pinched.triangles();
   for (Triangle& t : triangles) std::replace(t.begin(), t.end(), 4U, 0U);
   pinched.set_triangles(triangles);
   EXPECT_THROW(note_birth(pinched), MeshError);
-}
-
-TEST(Birth, IsNotedOnceAndCanBeForgotten) {
-  TriangleMesh mesh = make_tetrahedron(1.0);
-  note_birth(mesh);
-  scale(mesh, Vec3d::Constant(2.125));
-  note_birth(mesh);
-  TriangleMesh forgotten = mesh;
-  forget_birth(forgotten, {0, 1, 2, 3});
-  const Parameters parameters = test::parameters_for_cells_of(0.1);
-  EXPECT_EQ(keep_up(mesh, parameters).splits, 6U);
-  EXPECT_FALSE(keep_up(forgotten, parameters).has_changes());
-}
-
-TEST(Birth, OfANewVertexWithoutABlendIsWhenItIsFirstSeen) {
-  TriangleMesh mesh = make_tetrahedron(1.0);
-  note_birth(mesh);
-  // A re-mesher puts a vertex into the middle of a triangle.
-  const std::uint32_t v = mesh.append_vertex({0.3F, 0.3F, -0.3F}, {});
-  mesh.set_triangles({{0, 1, v}, {1, 2, v}, {2, 0, v}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
-  const Parameters parameters = test::parameters_for_cells_of(0.01);
-  EXPECT_FALSE(keep_up(mesh, parameters).has_changes());
-  const auto birth = mesh.attributes()[mesh.attributes().find("birth")].values;
-  EXPECT_FLOAT_EQ(birth[4 * v], (mesh.positions()[0] - mesh.positions()[v]).norm());
-}
-
-TEST(DeltaDecay, HalvesInItsHalfLifeAndIsOffWithoutOne) {
-  TriangleMesh mesh = make_tetrahedron(1.0);
-  mesh.delta() = {1.0F, -2.0F, 0.0F, 0.5F};
-  Parameters parameters = test::parameters_for_cells_of(1.0);
-  decay_delta(mesh, 10.0, parameters);
-  EXPECT_THAT(mesh.delta(), ElementsAre(1.0F, -2.0F, 0.0F, 0.5F));
-  parameters.delta_half_life = 0.25;
-  decay_delta(mesh, 0.25, parameters);
-  EXPECT_THAT(mesh.delta(), ElementsAre(0.5F, -1.0F, 0.0F, 0.25F));
-  for (int n = 0; n < 10; ++n) decay_delta(mesh, 0.05, parameters);
-  EXPECT_NEAR(mesh.delta()[1], -0.25, 1e-6);
-  decay_delta(mesh, -1.0, parameters);
-  decay_delta(mesh, 0.0, parameters);
-  EXPECT_NEAR(mesh.delta()[1], -0.25, 1e-6);
 }
 
 }  // namespace

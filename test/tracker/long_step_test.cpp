@@ -3,18 +3,13 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "support/parameters.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
 namespace {
 
 constexpr double r = 0.1;
-
-Parameters parameters() {
-  Parameters p;
-  p.particle_spacing = r;
-  return p;
-}
 
 /// Particles that all move by the same number of r, but for some that are faster.
 ParticleMotion motion_of(std::size_t count, double way, std::size_t fast, double fast_way) {
@@ -29,21 +24,21 @@ ParticleMotion motion_of(std::size_t count, double way, std::size_t fast, double
 TEST(LongStep, HasAStepForEveryFrame) {
   const ParticleMotion motion = motion_of(1000, 1.0, 0, 0.0);
   for (const std::uint64_t elapsed : {1, 2, 4, 16}) {
-    EXPECT_EQ(steps_for(motion, elapsed, parameters()), static_cast<int>(elapsed));
+    EXPECT_EQ(steps_for(motion, elapsed, test::parameters_with_spacing(r)), static_cast<int>(elapsed));
   }
-  EXPECT_EQ(steps_for(motion, 1000000, parameters()), 16);
+  EXPECT_EQ(steps_for(motion, 1000000, test::parameters_with_spacing(r)), 16);
 }
 
 TEST(LongStep, HasMoreStepsWhereTheWayIsLong) {
-  EXPECT_EQ(steps_for(motion_of(1000, 3.9, 0, 0.0), 1, parameters()), 1);
-  EXPECT_EQ(steps_for(motion_of(1000, 9.0, 0, 0.0), 1, parameters()), 3);
-  EXPECT_EQ(steps_for(motion_of(1000, 9.0, 0, 0.0), 5, parameters()), 5);
-  EXPECT_EQ(steps_for(motion_of(1000, 1e6, 0, 0.0), 1, parameters()), 16);
+  EXPECT_EQ(steps_for(motion_of(1000, 3.9, 0, 0.0), 1, test::parameters_with_spacing(r)), 1);
+  EXPECT_EQ(steps_for(motion_of(1000, 9.0, 0, 0.0), 1, test::parameters_with_spacing(r)), 3);
+  EXPECT_EQ(steps_for(motion_of(1000, 9.0, 0, 0.0), 5, test::parameters_with_spacing(r)), 5);
+  EXPECT_EQ(steps_for(motion_of(1000, 1e6, 0, 0.0), 1, test::parameters_with_spacing(r)), 16);
   // A few drops are no reason.
-  EXPECT_EQ(steps_for(motion_of(1000, 1.0, 10, 9.0), 1, parameters()), 1);
-  EXPECT_EQ(steps_for(motion_of(1000, 1.0, 11, 9.0), 1, parameters()), 3);
-  EXPECT_EQ(steps_for(motion_of(3, 9.0, 0, 0.0), 1, parameters()), 3);
-  EXPECT_EQ(steps_for(ParticleMotion(), 7, parameters()), 1);
+  EXPECT_EQ(steps_for(motion_of(1000, 1.0, 10, 9.0), 1, test::parameters_with_spacing(r)), 1);
+  EXPECT_EQ(steps_for(motion_of(1000, 1.0, 11, 9.0), 1, test::parameters_with_spacing(r)), 3);
+  EXPECT_EQ(steps_for(motion_of(3, 9.0, 0, 0.0), 1, test::parameters_with_spacing(r)), 3);
+  EXPECT_EQ(steps_for(ParticleMotion(), 7, test::parameters_with_spacing(r)), 1);
 }
 
 struct Turn {
@@ -66,14 +61,16 @@ struct Turn {
 
 TEST(LongStep, OneStepIsAdvection) {
   const Turn turn(0.1);
-  EXPECT_EQ(advect_in_steps(turn.vertices, turn.motion, 1, parameters()),
-            advect(turn.vertices, turn.motion, ParticleGrid(turn.motion.positions, r), parameters()));
+  EXPECT_EQ(
+      advect_in_steps(turn.vertices, turn.motion, 1, test::parameters_with_spacing(r)),
+      advect(turn.vertices, turn.motion, ParticleGrid(turn.motion.positions, r), test::parameters_with_spacing(r)));
 }
 
 TEST(LongStep, RigidMotionStaysExact) {
   const Turn turn(0.5);
   for (const int steps : {1, 4, 16}) {
-    const std::vector<Vec3f> advected = advect_in_steps(turn.vertices, turn.motion, steps, parameters());
+    const std::vector<Vec3f> advected =
+        advect_in_steps(turn.vertices, turn.motion, steps, test::parameters_with_spacing(r));
     double largest = 0.0;
     for (std::size_t v = 0; v < advected.size(); ++v) {
       largest = std::max(largest, static_cast<double>((advected[v] - turn.turned[v]).norm()));

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "particle_surface_tracker/core/error.h"
+#include "support/parameters.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
@@ -19,12 +20,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double r = 0.1;
-
-Parameters parameters() {
-  Parameters p;
-  p.particle_spacing = r;
-  return p;
-}
 
 /// A sphere with ripples finer than r, and the particles in it.
 TriangleMesh rippled_ball() {
@@ -52,7 +47,7 @@ ParticleFrame shifted(const ParticleFrame& frame, const Vec3d& by) {
 }
 
 TEST(Tracker, TheFirstFrameIsTheMeshItWasGiven) {
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   EXPECT_FALSE(tracker.started());
   const TriangleMesh mesh = rippled_ball();
   const FrameReport report = tracker.start(mesh, ball_of_particles(), 3);
@@ -74,7 +69,7 @@ TEST(Tracker, TheFirstFrameIsTheMeshItWasGiven) {
 TEST(Tracker, RestLeavesEveryBitAlsoWhenTheArrayIsShuffled) {
   const TriangleMesh mesh = rippled_ball();
   const ParticleFrame particles = ball_of_particles();
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start(mesh, particles);
   const std::vector<float> delta = tracker.mesh().delta();
   std::mt19937 random(1);
@@ -93,7 +88,7 @@ TEST(Tracker, RestLeavesEveryBitAlsoWhenTheArrayIsShuffled) {
 TEST(Tracker, CarriesDetailThroughATurn) {
   const TriangleMesh mesh = rippled_ball();
   const ParticleFrame particles = ball_of_particles();
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start(mesh, particles);
   const Vec3d axis = Vec3d(1, -2, 0.5).normalized();
   for (std::uint64_t frame = 1; frame <= 15; ++frame) {
@@ -116,14 +111,14 @@ TEST(Tracker, CarriesDetailThroughATurn) {
 }
 
 TEST(Tracker, MeasuresNothingBeforeItIsStarted) {
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   EXPECT_THROW(tracker.advance(ball_of_particles(), 1), TrackingError);
   EXPECT_EQ(tracker.mesh().vertex_count(), 0u);
   EXPECT_EQ(tracker.implicit_surface(), nullptr);
 }
 
 TEST(Tracker, RefusesBadBeginningsAndStaysAsItWas) {
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start(rippled_ball(), ball_of_particles());
   const std::vector<Vec3f> before = tracker.mesh().positions();
   EXPECT_THROW(tracker.start(rippled_ball(), ParticleFrame{}), ParticleError);
@@ -141,7 +136,7 @@ TEST(Tracker, RefusesBadBeginningsAndStaysAsItWas) {
 TEST(Tracker, WaitsWhileThereAreNoParticlesAndGoesOnWhenTheyReturn) {
   const TriangleMesh mesh = rippled_ball();
   const ParticleFrame particles = ball_of_particles();
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start(mesh, particles);
   const FrameReport gone = tracker.advance(ParticleFrame{}, 1);
   EXPECT_EQ(gone.particles, 0u);
@@ -160,7 +155,7 @@ TEST(Tracker, WaitsWhileThereAreNoParticlesAndGoesOnWhenTheyReturn) {
 TEST(Tracker, RecycledIdsAndTeleportsMoveNothing) {
   const TriangleMesh mesh = rippled_ball();
   const ParticleFrame particles = ball_of_particles();
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start(mesh, particles);
   ParticleFrame next = shifted(particles, {0.02, 0, 0});
   next.positions[10] += Vec3f(0, 50, 0);
@@ -174,7 +169,7 @@ TEST(Tracker, RecycledIdsAndTeleportsMoveNothing) {
 }
 
 TEST(Tracker, WithOtherIdsTheMeshIsNotAdvectedAndTheReportSaysSo) {
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   const ParticleFrame particles = ball_of_particles();
   tracker.start(rippled_ball(), particles);
   ParticleFrame strangers = particles;
@@ -187,7 +182,7 @@ TEST(Tracker, WithOtherIdsTheMeshIsNotAdvectedAndTheReportSaysSo) {
 
 TEST(Tracker, FollowsASingleParticle) {
   const auto at = [](float x) { return make_particle_frame(0, {{x, 0, 0}}, {7}); };
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start_from_particles(at(0.0f));
   const std::size_t vertices = tracker.mesh().vertex_count();
   EXPECT_GT(vertices, 20u);
@@ -214,7 +209,7 @@ TEST(Tracker, FlagsVerticesWhoseLiquidHasGone) {
     one.ids.push_back(both.ids[i]);
   }
   // Where topology is kept, its mesh is left behind, flagged, and does not jump over to the first.
-  Parameters keep = parameters();
+  Parameters keep = test::parameters_with_spacing(r);
   keep.topology = TopologyMode::kKeep;
   Tracker tracker(keep);
   tracker.start_from_particles(both);
@@ -228,7 +223,7 @@ TEST(Tracker, FlagsVerticesWhoseLiquidHasGone) {
   EXPECT_EQ(tracker.mesh().positions(), before);
 
   // Else it goes with its liquid, and the first drop keeps every bit.
-  Tracker matching(parameters());
+  Tracker matching(test::parameters_with_spacing(r));
   matching.start_from_particles(both);
   matching.advance(one, 1);
   std::vector<Vec3f> first_drop;
@@ -241,7 +236,7 @@ TEST(Tracker, SameBytesWithOneAndTwoThreads) {
   const ParticleFrame particles = ball_of_particles();
   const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    Tracker tracker(parameters());
+    Tracker tracker(test::parameters_with_spacing(r));
     tracker.start(rippled_ball(), particles);
     for (std::uint64_t frame = 1; frame <= 5; ++frame) {
       const double t = 0.05 * static_cast<double>(frame);
@@ -258,16 +253,16 @@ TEST(Tracker, SameBytesWithOneAndTwoThreads) {
 }
 
 TEST(Tracker, ParametersChangeBetweenFramesUnlessTheyNeedAReset) {
-  Tracker tracker(parameters());
+  Tracker tracker(test::parameters_with_spacing(r));
   tracker.start(rippled_ball(), ball_of_particles());
-  Parameters changed = parameters();
+  Parameters changed = test::parameters_with_spacing(r);
   changed.tau = 0.3;
   tracker.set_parameters(changed);
   EXPECT_EQ(tracker.parameters().tau, 0.3);
   changed.dx_phi = 0.4;
   EXPECT_THROW(tracker.set_parameters(changed), ParameterError);
   EXPECT_EQ(tracker.parameters().dx_phi, 0.5);
-  changed = parameters();
+  changed = test::parameters_with_spacing(r);
   changed.epsilon = 2.0;
   EXPECT_THROW(tracker.set_parameters(changed), ParameterError);
   EXPECT_THROW(Tracker(Parameters{}), ParameterError);

@@ -8,7 +8,7 @@
 #include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/stages/component_disagreement.h"
 #include "particle_surface_tracker/stages/isosurface_query.h"
-#include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "particle_surface_tracker/stages/mesh_query.h"
 #include "particle_surface_tracker/stages/topology_matching.h"
 
 namespace particle_surface_tracker {
@@ -16,12 +16,12 @@ namespace particle_surface_tracker {
 /// Particles of a frame that the mesh does not hold (they are outside and farther than `reach` from it), near which
 /// there is liquid of φ that is not in the mesh.
 /// \param particles [m].
-/// \param lattice of the mesh before `matched`.
+/// \param mesh_query the mesh before `matched`.
 /// \param matched what became of Γ since; empty if nothing did.
 /// \param mesh as it is now.
 /// \param reach [m].
 /// \return their positions [m], in the order of the particles; none where `detection` is kTau.
-std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles, const MeshLattice& lattice,
+std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles, const MeshQuery& mesh_query,
                                             const MatchedVoxelization& matched, const TriangleMesh& mesh,
                                             const IsosurfaceQuery& isosurface, double reach,
                                             const Parameters& parameters);
@@ -29,10 +29,10 @@ std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles,
 /// Nodes of Γ where detail and topology cannot both be had, so that Γ has to have the side of φ: around particles that
 /// the mesh does not hold, in scraps of mesh that belong to a body, and along the shortest way through liquid from
 /// these, and from larger pieces that belong to a body, to the rest of the mesh.
-/// \param lattice of the mesh.
+/// \param mesh_query the mesh.
 /// \param uncovered particles [m].
 /// \return sorted, unique.
-std::vector<openvdb::Coord> find_conflicting_nodes(const MeshLattice& lattice, const ComponentDisagreement& pieces,
+std::vector<openvdb::Coord> find_conflicting_nodes(const MeshQuery& mesh_query, const ComponentDisagreement& pieces,
                                                    const std::vector<Vec3f>& uncovered,
                                                    const IsosurfaceQuery& isosurface, const Parameters& parameters);
 

@@ -6,7 +6,7 @@
 
 #include "particle_surface_tracker/core/parameters.h"
 #include "particle_surface_tracker/stages/isosurface_query.h"
-#include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "particle_surface_tracker/stages/mesh_query.h"
 
 namespace particle_surface_tracker {
 
@@ -20,11 +20,11 @@ struct Disagreement {
 /// the mesh, holes inside large triangles, liquid that appears.
 ///
 /// Only nodes next to the isosurface and next to the mesh are looked at (docs/topology_matching.md).
-/// \param lattice of the mesh.
+/// \param mesh by its lattice.
 /// \param delta δ of each vertex of the mesh [m].
 /// \param isosurface of the frame that the mesh is now in.
 /// \return nothing where `detection` is kTau.
-Disagreement find_disagreement(const MeshLattice& lattice, const std::vector<float>& delta,
+Disagreement find_disagreement(const MeshQuery& mesh, const std::vector<float>& delta,
                                const IsosurfaceQuery& isosurface, const Parameters& parameters);
 
 }  // namespace particle_surface_tracker

@@ -42,13 +42,16 @@ class DistanceFields {
   /// \param reach largest distance [m].
   SignedDistanceField around(const std::vector<Vec3f>& positions, double reach) const;
 
+  /// The cells of the isosurface, for others that ask for distances in the frame.
+  const std::shared_ptr<const SurfaceCells>& cells() const { return cells_; }
+
   /// Every node of the band.
   /// \param reach largest distance [m].
   SignedDistanceField everywhere(double reach) const;
 
  private:
   const ImplicitSurface& surface_;
-  std::unique_ptr<const SurfaceCells> cells_;
+  std::shared_ptr<const SurfaceCells> cells_;
 };
 
 }  // namespace particle_surface_tracker

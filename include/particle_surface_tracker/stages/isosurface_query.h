@@ -8,6 +8,7 @@ namespace particle_surface_tracker {
 
 class ComponentLabels;
 class FieldAtNodes;
+class SurfaceCells;
 
 /// What the topology of a mesh is compared with: φ at the nodes of Γ, and the components of φ = 0. Both are worked out
 /// when they are first asked for, and then serve all stages of a frame. Not to be shared by threads.
@@ -15,7 +16,8 @@ class IsosurfaceQuery {
  public:
   /// \param surface must live as long as this.
   /// \param h Δx_Γ [m].
-  IsosurfaceQuery(const ImplicitSurface& surface, double h);
+  /// \param cells those of the surface, where they are at hand; else they are made when distances are asked for.
+  IsosurfaceQuery(const ImplicitSurface& surface, double h, std::shared_ptr<const SurfaceCells> cells = nullptr);
   ~IsosurfaceQuery();
   IsosurfaceQuery(const IsosurfaceQuery&) = delete;
   IsosurfaceQuery& operator=(const IsosurfaceQuery&) = delete;
@@ -27,6 +29,7 @@ class IsosurfaceQuery {
  private:
   const ImplicitSurface& surface_;
   double h_;
+  std::shared_ptr<const SurfaceCells> cells_;
   mutable std::unique_ptr<FieldAtNodes> field_;
   mutable std::unique_ptr<ComponentLabels> components_;
 };

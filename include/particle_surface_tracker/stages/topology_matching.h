@@ -7,7 +7,7 @@
 
 #include "particle_surface_tracker/core/parameters.h"
 #include "particle_surface_tracker/stages/isosurface_query.h"
-#include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "particle_surface_tracker/stages/mesh_query.h"
 
 namespace particle_surface_tracker {
 
@@ -39,13 +39,13 @@ struct MatchedVoxelization {
 /// 26 neighbours (so that |Γ| ≤ h√3). Where Γ changes sides near the rim of that region, the region grows there.
 /// Without flagged cells nothing is done, unless matching_frames asks for it: then all nodes within matching_reach of
 /// mesh or isosurface are looked at.
-/// \param lattice of the mesh.
+/// \param mesh by its lattice.
 /// \param isosurface of the frame that the mesh is now in.
 /// \param flagged_cells cells of Γ.
 /// \param at_conflicts nodes where Γ gets the side of φ, whatever the mesh says: ψ counts where it leads away from the
 /// other side, and is 0 where it does not. They count as flagged.
 /// \throw TrackingError if the whole domain is asked for (matching_reach 0) and has more than 2^28 nodes.
-MatchedVoxelization match_topology(const MeshLattice& lattice, const IsosurfaceQuery& isosurface,
+MatchedVoxelization match_topology(const MeshQuery& mesh, const IsosurfaceQuery& isosurface,
                                    const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters,
                                    const std::vector<openvdb::Coord>& at_conflicts = {});
 

@@ -55,7 +55,7 @@ SignedDistanceField make_field(const SurfaceCells& cells, const NodeMasks& wante
 }  // namespace
 
 DistanceFields::DistanceFields(const ImplicitSurface& surface)
-    : surface_(surface), cells_(std::make_unique<SurfaceCells>(surface)) {}
+    : surface_(surface), cells_(std::make_shared<SurfaceCells>(surface)) {}
 
 DistanceFields::~DistanceFields() = default;
 

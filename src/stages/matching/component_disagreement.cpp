@@ -8,6 +8,7 @@
 #include "component_labels.h"
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "stages/detection/triangle_cells.h"
+#include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
 #include "stages/upkeep/birth_record.h"
 
@@ -65,9 +66,13 @@ class StrayPieces {
     for (const Triangle& t : mesh.triangles()) ++sizes[component_[t[0]]];
     std::vector<bool> has_changed(count_, false);
     std::map<std::pair<std::uint32_t, std::int32_t>, std::size_t> votes;
+    auto entry = votes.end();
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
       // Away from all others there is only the largest.
-      ++votes[{component_[v], std::max(labels[v], 0)}];
+      const std::pair key(component_[v], std::max(labels[v], 0));
+      // Mostly that of the vertex before.
+      if (entry == votes.end() || entry->first != key) entry = votes.try_emplace(key, 0).first;
+      ++entry->second;
       if (mesh.ids()[v] >= first_new_id) has_changed[component_[v]] = true;
     }
     std::vector<std::pair<std::size_t, std::int32_t>> choice(count_, {0, 0});
@@ -82,6 +87,10 @@ class StrayPieces {
       if (!has_changed[c] || owner[choice[c].second].second == c) continue;
       kinds_[c] = sizes[c] <= kLargestScrap ? Kind::kScrap : Kind::kBody;
     }
+  }
+
+  bool none() const {
+    return std::all_of(kinds_.begin(), kinds_.end(), [](Kind kind) { return kind == Kind::kNone; });
   }
 
   /// Of the component that a triangle belongs to.
@@ -101,6 +110,7 @@ ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std:
   const ComponentLabels& components = isosurface.components();
   const Labels labels = components.of(mesh.positions());
   const StrayPieces pieces(mesh, first_new_id, labels);
+  if (components.is_of_one_piece() && pieces.none()) return {};
   const std::size_t attribute = mesh.attributes().find(kAttributeName);
   const auto is_old_bridge = [&](const Triangle& t) {
     if (attribute == VertexAttributes::none) return false;
@@ -131,21 +141,20 @@ ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std:
 void note_bridges(TriangleMesh& mesh, const IsosurfaceQuery& isosurface) {
   const Labels labels = isosurface.components().of(mesh.positions());
   const std::size_t attribute = mesh.attributes().add(kAttributeName, 1, {0.0F}, AttributeUse::kInternal);
-  const auto cell_of = [&](std::uint32_t v) {
-    const Vec3d cell = (mesh.positions()[v].cast<double>() / isosurface.surface().dx).array().floor();
-    return openvdb::Coord(static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
+  const auto cell_at = [&](std::uint32_t v) {
+    return cell_of(mesh.positions()[v].cast<double>() / isosurface.surface().dx);
   };
   NodeMasks cells;
   for (const Triangle& t : mesh.triangles()) {
     if (!spans_components(t, labels)) continue;
-    for (const std::uint32_t v : t) cells.insert(cell_of(v));
+    for (const std::uint32_t v : t) cells.insert(cell_at(v));
   }
   if (cells.leaves().empty()) return;
   // Which component is nearest depends on how the lattice lies, by some cells.
   cells.dilate(kBridgeReach, kBridgeReach);
   std::vector<float>& bridge = mesh.attributes()[attribute].values;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    if (cells.contains(cell_of(v))) bridge[v] = 1.0F;
+    if (cells.contains(cell_at(v))) bridge[v] = 1.0F;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "particle_surface_tracker/core/mesh_measures.h"
+#include "stages/nodes/lattice_cell.h"
 
 namespace particle_surface_tracker {
 
@@ -114,10 +115,7 @@ std::vector<std::int32_t> ComponentLabels::of(const std::vector<Vec3f>& position
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 4096), [&](const auto& range) {
     const openvdb::tree::ValueAccessor<const openvdb::Int32Tree> labels(labels_);
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
-      const Vec3d cell = (positions[n].cast<double>() / dx_).array().floor();
-      const std::int32_t label =
-          labels.getValue(Coord(static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z())));
-      found[n] = label - 1;
+      found[n] = labels.getValue(cell_of(positions[n].cast<double>() / dx_)) - 1;
     }
   });
   return found;

@@ -88,7 +88,7 @@ std::vector<Nodes> connected_sets(const Nodes& cells) {
 /// Finds the ways from liquid that the mesh does not hold to liquid that it does.
 class Ways {
  public:
-  Ways(const MeshLattice& lattice, const FieldAtNodes& field) : mesh_(make_mesh_signs(lattice)), field_(field) {}
+  Ways(const LineSigns& mesh, const FieldAtNodes& field) : mesh_(mesh), field_(field) {}
 
   /// The nodes at a surface, and those that it encloses.
   /// \return sorted.
@@ -151,19 +151,19 @@ class Ways {
     return (words[node.x() & 7] >> (8 * (node.y() & 7) + (node.z() & 7)) & 1) != 0;
   }
 
-  LineSigns mesh_;
+  const LineSigns& mesh_;
   const FieldAtNodes& field_;
 };
 
 }  // namespace
 
-std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles, const MeshLattice& lattice,
+std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles, const MeshQuery& mesh_query,
                                             const MatchedVoxelization& matched, const TriangleMesh& mesh,
                                             const IsosurfaceQuery& isosurface, double reach,
                                             const Parameters& parameters) {
   if (parameters.detection == DetectionMethod::kTau) return {};
-  const double h = lattice.h();
-  const LineSigns before = make_mesh_signs(lattice);
+  const double h = mesh_query.lattice().h();
+  const LineSigns& before = mesh_query.signs();
   std::vector<Vec3f> uncovered;
   for (const std::uint32_t p : find_uncovered_particles(particles, before, matched, mesh, h, reach)) {
     const NodeMasks around = masks_of(nodes_around(particles[p], h, kAroundParticle * parameters.particle_spacing));
@@ -174,17 +174,18 @@ std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles,
   return uncovered;
 }
 
-std::vector<Coord> find_conflicting_nodes(const MeshLattice& lattice, const ComponentDisagreement& pieces,
+std::vector<Coord> find_conflicting_nodes(const MeshQuery& mesh_query, const ComponentDisagreement& pieces,
                                           const std::vector<Vec3f>& uncovered, const IsosurfaceQuery& isosurface,
                                           const Parameters& parameters) {
   if (pieces.scrap_cells.empty() && pieces.stray_cells.empty() && uncovered.empty()) return {};
   const double r = parameters.particle_spacing;
-  const int longest = static_cast<int>(std::ceil(kLongestWay * r / lattice.h()));
-  const Ways ways(lattice, isosurface.field());
+  const double h = mesh_query.lattice().h();
+  const int longest = static_cast<int>(std::ceil(kLongestWay * r / h));
+  const Ways ways(mesh_query.signs(), isosurface.field());
   Nodes found;
   const auto append = [&](const Nodes& nodes) { found.insert(found.end(), nodes.begin(), nodes.end()); };
   for (const Vec3f& particle : uncovered) {
-    const Nodes around = nodes_around(particle, lattice.h(), kAroundParticle * r);
+    const Nodes around = nodes_around(particle, h, kAroundParticle * r);
     append(around);
     append(ways.from(around, longest));
   }

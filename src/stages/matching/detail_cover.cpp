@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-#include <openvdb/math/Proximity.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -18,12 +17,8 @@ namespace {
 
 constexpr int kWidth = NearBlocks::kWidth;
 
-openvdb::Vec3d to_openvdb(const Vec3f& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /// The lattice places between which a node may be for a triangle to explain it.
-openvdb::CoordBBox nodes_around(const std::array<openvdb::Vec3d, 3>& corners, double reach, double h) {
+openvdb::CoordBBox nodes_around(const Corners& corners, double reach, double h) {
   openvdb::CoordBBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [lower, upper] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
@@ -69,18 +64,13 @@ std::vector<openvdb::Coord> nodes_beyond_detail(const NodeMasks& set, const Mesh
     const double reach = largest_delta(triangle, delta) + slack;
     const double extent = longest_edge(lattice.positions(), triangle);
     if (reach + extent < kWidth * h && !blocks.may_be_near(lattice.positions()[triangle[0]])) return;
-    const std::array<openvdb::Vec3d, 3> corners = {to_openvdb(lattice.positions()[triangle[0]]),
-                                                   to_openvdb(lattice.positions()[triangle[1]]),
-                                                   to_openvdb(lattice.positions()[triangle[2]])};
+    const Corners corners = corners_of(lattice.positions(), triangle);
     openvdb::CoordBBox box = nodes_around(corners, reach, h);
     box.intersect(all);
     if (box.empty()) return;
     for_each_node_in(set, box, [&](const openvdb::Coord& node) {
       const openvdb::Vec3d place(lattice.plane(node.x()), lattice.plane(node.y()), lattice.plane(node.z()));
-      openvdb::Vec3d unused;
-      const openvdb::Vec3d closest =
-          openvdb::math::closestPointOnTriangleToPoint(corners[0], corners[1], corners[2], place, unused);
-      if ((closest - place).lengthSqr() <= reach * reach) {
+      if (squared_distance(corners, place) <= reach * reach) {
         is_explained[numbers.find(node)].store(1, std::memory_order_relaxed);
       }
     });

@@ -133,13 +133,13 @@ std::vector<openvdb::Coord> cells_around(const std::vector<openvdb::Coord>& node
 
 }  // namespace
 
-Disagreement find_disagreement(const MeshLattice& lattice, const std::vector<float>& delta,
+Disagreement find_disagreement(const MeshQuery& mesh, const std::vector<float>& delta,
                                const IsosurfaceQuery& isosurface, const Parameters& parameters) {
   if (parameters.detection == DetectionMethod::kTau) return {};
   Disagreement result;
-  const LineSigns mesh = make_mesh_signs(lattice);
-  result.nodes = disagreement_at_isosurface(lattice, delta, isosurface.surface(), mesh);
-  const std::vector<openvdb::Coord> at_mesh = disagreement_at_mesh(lattice, delta, isosurface, mesh);
+  const MeshLattice& lattice = mesh.lattice();
+  result.nodes = disagreement_at_isosurface(lattice, delta, isosurface.surface(), mesh.signs());
+  const std::vector<openvdb::Coord> at_mesh = disagreement_at_mesh(lattice, delta, isosurface, mesh.signs());
   result.nodes.insert(result.nodes.end(), at_mesh.begin(), at_mesh.end());
   std::sort(result.nodes.begin(), result.nodes.end());
   result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());

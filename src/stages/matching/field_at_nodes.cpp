@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -46,8 +47,8 @@ NodeMasks nodes_needed(const std::vector<openvdb::Coord>& nodes, double ratio) {
 
 }  // namespace
 
-FieldAtNodes::FieldAtNodes(const ImplicitSurface& surface, double h)
-    : surface_(surface), h_(h), signs_(make_field_signs(surface)) {}
+FieldAtNodes::FieldAtNodes(const ImplicitSurface& surface, double h, std::shared_ptr<const SurfaceCells> cells)
+    : surface_(surface), h_(h), signs_(make_field_signs(surface)), cells_(std::move(cells)) {}
 
 NodeMasks FieldAtNodes::liquid(const NodeMasks& set) const {
   NodeMasks found(set.leaves().size());
@@ -69,7 +70,7 @@ NodeMasks FieldAtNodes::liquid(const NodeMasks& set) const {
 }
 
 std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& nodes, double reach) const {
-  if (!cells_) cells_.emplace(surface_);
+  if (!cells_) cells_ = std::make_shared<SurfaceCells>(surface_);
   const double ratio = h_ / surface_.dx;
   const double reach_cells = reach / surface_.dx;
   const NodeMasks needed = nodes_needed(nodes, ratio);

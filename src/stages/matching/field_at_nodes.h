@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include <openvdb/Types.h>
@@ -18,7 +18,8 @@ class FieldAtNodes {
  public:
   /// \param surface must live as long as this.
   /// \param h Δx_Γ [m].
-  FieldAtNodes(const ImplicitSurface& surface, double h);
+  /// \param cells those of the surface, or null: then they are made when distances are asked for.
+  FieldAtNodes(const ImplicitSurface& surface, double h, std::shared_ptr<const SurfaceCells> cells = nullptr);
 
   /// The sides of φ's own nodes.
   const LineSigns& signs() const { return signs_; }
@@ -34,7 +35,7 @@ class FieldAtNodes {
   const ImplicitSurface& surface_;
   double h_;
   LineSigns signs_;
-  mutable std::optional<SurfaceCells> cells_;  // sides can be had without
+  mutable std::shared_ptr<const SurfaceCells> cells_;  // sides can be had without
 };
 
 }  // namespace particle_surface_tracker

@@ -1,16 +1,19 @@
 #include "particle_surface_tracker/stages/isosurface_query.h"
 
+#include <utility>
+
 #include "component_labels.h"
 #include "field_at_nodes.h"
 
 namespace particle_surface_tracker {
 
-IsosurfaceQuery::IsosurfaceQuery(const ImplicitSurface& surface, double h) : surface_(surface), h_(h) {}
+IsosurfaceQuery::IsosurfaceQuery(const ImplicitSurface& surface, double h, std::shared_ptr<const SurfaceCells> cells)
+    : surface_(surface), h_(h), cells_(std::move(cells)) {}
 
 IsosurfaceQuery::~IsosurfaceQuery() = default;
 
 const FieldAtNodes& IsosurfaceQuery::field() const {
-  if (!field_) field_ = std::make_unique<FieldAtNodes>(surface_, h_);
+  if (!field_) field_ = std::make_unique<FieldAtNodes>(surface_, h_, cells_);
   return *field_;
 }
 

@@ -90,15 +90,11 @@ MatchingNodes classify_nodes(const NodeMasks& region, const NodeMasks& flagged, 
   return nodes;
 }
 
-bool contains(const NodeMasks& set, const openvdb::Coord& node) {
-  return (words_of(set, node & ~7)[node.x() & 7] >> (8 * (node.y() & 7) + (node.z() & 7)) & 1) != 0;
-}
-
 bool is_near_rim(const NodeMasks& region, const openvdb::Coord& node) {
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
-        if (std::abs(x) + std::abs(y) + std::abs(z) <= 2 && !contains(region, node.offsetBy(x, y, z))) return true;
+        if (std::abs(x) + std::abs(y) + std::abs(z) <= 2 && !region.contains(node.offsetBy(x, y, z))) return true;
       }
     }
   }

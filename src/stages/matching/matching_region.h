@@ -37,7 +37,4 @@ MatchingNodes classify_nodes(const NodeMasks& region, const NodeMasks& flagged, 
 /// True if a node belongs to the outermost layer of a region or is next to it.
 bool is_near_rim(const NodeMasks& region, const openvdb::Coord& node);
 
-/// True if a node is in a set.
-bool contains(const NodeMasks& set, const openvdb::Coord& node);
-
 }  // namespace particle_surface_tracker

@@ -2,8 +2,8 @@
 
 #include <openvdb/Types.h>
 
-#include "matching_region.h"
 #include "particle_surface_tracker/core/types.h"
+#include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
@@ -23,20 +23,12 @@ class NearBlocks {
 
   /// False if no node of the set is within the width of a block of a position.
   bool may_be_near(const Vec3f& position) const {
-    const Vec3d place = position.cast<double>() * blocks_per_meter_;
-    const openvdb::Coord block(floor_of(place.x()), floor_of(place.y()), floor_of(place.z()));
-    return contains(blocks_, block);
+    return blocks_.contains(cell_of(position.cast<double>() * blocks_per_meter_));
   }
 
  private:
   static openvdb::Coord block_of_leaf(const openvdb::Coord& origin) {
     return {origin.x() >> 3, origin.y() >> 3, origin.z() >> 3};
-  }
-
-  /// std::floor is a function call on plain x86-64.
-  static int floor_of(double x) {
-    const int truncated = static_cast<int>(x);
-    return truncated - (x < truncated ? 1 : 0);
   }
 
   double blocks_per_meter_;

@@ -36,14 +36,14 @@ constexpr double kLargestDomain = 1 << 28;
 /// Rounds of solving in a region that grows.
 class TopologyMatching {
  public:
-  TopologyMatching(const MeshLattice& lattice, const FieldAtNodes& field, const NodeMasks& flagged,
+  TopologyMatching(const MeshQuery& mesh, const FieldAtNodes& field, const NodeMasks& flagged,
                    const NodeMasks& follows_phi, const Parameters& parameters)
-      : lattice_(lattice),
+      : lattice_(mesh.lattice()),
         flagged_(flagged),
         follows_phi_(follows_phi),
         parameters_(parameters),
-        diagonal_(std::sqrt(3.0) * lattice.h()),
-        mesh_signs_(make_mesh_signs(lattice)),
+        diagonal_(std::sqrt(3.0) * mesh.lattice().h()),
+        mesh_signs_(mesh.signs()),
         field_(field) {}
 
   /// \param reach by which the region grows where it is too small [nodes]; 0: never.
@@ -131,7 +131,7 @@ class TopologyMatching {
   const NodeMasks& follows_phi_;
   const Parameters& parameters_;
   double diagonal_;
-  LineSigns mesh_signs_;
+  const LineSigns& mesh_signs_;
   const FieldAtNodes& field_;
   MatchedVoxelization result_;
 };
@@ -161,7 +161,7 @@ NodeMasks whole_domain(const NodeMasks& surfaces) {
 
 }  // namespace
 
-MatchedVoxelization match_topology(const MeshLattice& lattice, const IsosurfaceQuery& isosurface,
+MatchedVoxelization match_topology(const MeshQuery& mesh, const IsosurfaceQuery& isosurface,
                                    const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters,
                                    const std::vector<openvdb::Coord>& at_conflicts) {
   const bool everywhere = parameters.matching_frames == MatchingFrames::kEvery;
@@ -171,15 +171,15 @@ MatchedVoxelization match_topology(const MeshLattice& lattice, const IsosurfaceQ
   NodeMasks flagged = nodes_at_cells(flagged_cells);
   unite(flagged, follows_phi);
   const int reach =
-      static_cast<int>(std::ceil(parameters.matching_reach * parameters.particle_spacing / lattice.h() - 1e-9));
+      static_cast<int>(std::ceil(parameters.matching_reach * parameters.particle_spacing / mesh.lattice().h() - 1e-9));
   NodeMasks region = flagged;
-  if (everywhere || reach == 0) unite(region, nodes_at_surfaces(lattice, isosurface.surface()));
+  if (everywhere || reach == 0) unite(region, nodes_at_surfaces(mesh.lattice(), isosurface.surface()));
   if (reach == 0) {
     region = whole_domain(region);
   } else {
     region.dilate(reach, reach);
   }
-  TopologyMatching matching(lattice, isosurface.field(), flagged, follows_phi, parameters);
+  TopologyMatching matching(mesh, isosurface.field(), flagged, follows_phi, parameters);
   MatchedVoxelization matched = matching.run(std::move(region), reach);
   for (const NodeMasks::Leaf& leaf : flagged.leaves()) {
     for (int x = 0; x < 8; ++x) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include <openvdb/math/Proximity.h>
 
 #include "particle_surface_tracker/core/types.h"
 
@@ -13,6 +16,26 @@ inline double largest_delta(const Triangle& triangle, const std::vector<float>& 
   double largest = 0.0;
   for (const std::uint32_t v : triangle) largest = std::max(largest, std::abs(static_cast<double>(delta[v])));
   return largest;
+}
+
+/// The corners of a triangle, as OpenVDB has positions.
+using Corners = std::array<openvdb::Vec3d, 3>;
+
+inline Corners corners_of(const std::vector<Vec3f>& positions, const Triangle& triangle) {
+  Corners corners;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3f& x = positions[triangle[i]];
+    corners[i] = {x.x(), x.y(), x.z()};
+  }
+  return corners;
+}
+
+/// Squared distance of a place from a triangle [m²].
+inline double squared_distance(const Corners& corners, const openvdb::Vec3d& place) {
+  openvdb::Vec3d unused;
+  const openvdb::Vec3d closest =
+      openvdb::math::closestPointOnTriangleToPoint(corners[0], corners[1], corners[2], place, unused);
+  return (closest - place).lengthSqr();
 }
 
 /// Length of the longest edge of a triangle [m].

@@ -1,27 +1,21 @@
 #include "uncovered_particles.h"
 
 #include <atomic>
-#include <cmath>
 
-#include <openvdb/math/Proximity.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "near_blocks.h"
 #include "particle_surface_tracker/core/particle_grid.h"
+#include "stages/nodes/lattice_cell.h"
 #include "triangle_extent.h"
 
 namespace particle_surface_tracker {
 
 namespace {
 
-openvdb::Coord cell_at(const Vec3f& position, double h) {
-  const Vec3d cell = (position.cast<double>() / h).array().floor();
-  return {static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z())};
-}
-
-openvdb::Vec3d to_openvdb(const Vec3f& v) {
-  return {v.x(), v.y(), v.z()};
+Vec3d in_cells(const Vec3f& position, double h) {
+  return position.cast<double>() / h;
 }
 
 /// The particles whose cell has no corner inside, and their cells.
@@ -34,13 +28,16 @@ struct Candidates {
 Candidates find_candidates(const std::vector<Vec3f>& particles, const LineSigns& before,
                            const MatchedVoxelization& matched, double h) {
   NodeMasks cells;
-  for (const Vec3f& particle : particles) cells.insert(cell_at(particle, h));
+  for (const Vec3f& particle : particles) {
+    if (has_cell(in_cells(particle, h))) cells.insert(cell_of(in_cells(particle, h)));
+  }
   cells.dilate(0, 1);
   NodeMasks held = inside_by_gamma(cells, before, matched);
   held.dilate(1, 0);
   Candidates candidates;
   for (std::uint32_t p = 0; p < particles.size(); ++p) {
-    const openvdb::Coord cell = cell_at(particles[p], h);
+    if (!has_cell(in_cells(particles[p], h))) continue;
+    const openvdb::Coord cell = cell_of(in_cells(particles[p], h));
     if (held.contains(cell)) continue;
     candidates.indices.push_back(p);
     candidates.positions.push_back(particles[p]);
@@ -84,20 +81,16 @@ std::vector<std::uint32_t> find_uncovered_particles(const std::vector<Vec3f>& pa
     const Vec3f lower = positions[t[0]].cwiseMin(positions[t[1]]).cwiseMin(positions[t[2]]);
     const Vec3f upper = positions[t[0]].cwiseMax(positions[t[1]]).cwiseMax(positions[t[2]]);
     const Vec3d margin = Vec3d::Constant(reach);
+    const Corners corners = corners_of(positions, t);
+    const auto cover_each = [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t n = begin; n < end; ++n) {
+        const openvdb::Vec3d place(grid.x()[n], grid.y()[n], grid.z()[n]);
+        if (squared_distance(corners, place) > reach * reach) continue;
+        is_covered[grid.index()[n]].store(1, std::memory_order_relaxed);
+      }
+    };
     grid.for_each_range(grid.cell_of(lower.cast<double>() - margin), grid.cell_of(upper.cast<double>() + margin),
-                        [&](std::uint32_t begin, std::uint32_t end) {
-                          for (std::uint32_t n = begin; n < end; ++n) {
-                            const std::uint32_t candidate = grid.index()[n];
-                            const openvdb::Vec3d place = to_openvdb(candidates.positions[candidate]);
-                            openvdb::Vec3d unused;
-                            const openvdb::Vec3d closest = openvdb::math::closestPointOnTriangleToPoint(
-                                to_openvdb(positions[t[0]]), to_openvdb(positions[t[1]]), to_openvdb(positions[t[2]]),
-                                place, unused);
-                            if ((closest - place).lengthSqr() <= reach * reach) {
-                              is_covered[candidate].store(1, std::memory_order_relaxed);
-                            }
-                          }
-                        });
+                        cover_each);
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangle_count(), 1024), [&](const auto& range) {
     for (std::size_t t = range.begin(); t != range.end(); ++t) cover(mesh.triangles()[t]);

@@ -102,7 +102,7 @@ std::vector<openvdb::Coord> find_deep_cells(TriangleCuts& cuts, const NodeMasks&
                                             const SmallComponents& small) {
   std::vector<openvdb::Coord> deep;
   for (const openvdb::Coord& cell : cuts.lattice().cells()) {
-    if (CellSet::contains(near_sign_change, cell)) continue;
+    if (near_sign_change.contains(cell)) continue;
     const auto triangles = cuts.lattice().triangles_in_cell(cell);
     const bool holds_mesh = std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
       return !small.contain(triangle) && cuts.meets(triangle, cell);

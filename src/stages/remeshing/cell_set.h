@@ -21,15 +21,7 @@ class CellSet {
     return true;
   }
 
-  bool contains(const openvdb::Coord& cell) const { return contains(masks_, cell); }
-
-  static bool contains(const NodeMasks& masks, const openvdb::Coord& cell) {
-    const openvdb::Coord origin = cell & ~7;
-    const std::uint32_t leaf = masks.find(origin);
-    if (leaf == LeafIndex::none) return false;
-    const openvdb::Coord at = cell - origin;
-    return (masks.leaves()[leaf].words[at.x()] >> (8 * at.y() + at.z()) & 1) != 0;
-  }
+  bool contains(const openvdb::Coord& cell) const { return masks_.contains(cell); }
 
   /// In the order in which they came.
   const std::vector<openvdb::Coord>& cells() const { return cells_; }

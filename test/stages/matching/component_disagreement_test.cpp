@@ -11,6 +11,7 @@
 #include "particle_surface_tracker/stages/implicit_function.h"
 #include "particle_surface_tracker/stages/surface_triangulation.h"
 #include "particle_surface_tracker/stages/upkeep.h"
+#include "support/parameters.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
@@ -19,12 +20,6 @@ namespace {
 constexpr double kSpacing = 0.1;
 constexpr double kH = 0.05;
 
-Parameters parameters() {
-  Parameters parameters;
-  parameters.particle_spacing = kSpacing;
-  return parameters;
-}
-
 /// φ = 0 of balls of radius 0.5 at some places on the x axis.
 ImplicitSurface surface_of_balls(const std::vector<double>& places) {
   const ParticleFrame particles =
@@ -32,8 +27,8 @@ ImplicitSurface surface_of_balls(const std::vector<double>& places) {
         return std::any_of(places.begin(), places.end(),
                            [&](double place) { return (x - Vec3d(place, 0, 0)).norm() < 0.5; });
       });
-  const ParticleGrid grid(particles.positions, implicit_function_cell_size(parameters()));
-  ImplicitSurface surface = evaluate_implicit_function(grid, parameters());
+  const ParticleGrid grid(particles.positions, implicit_function_cell_size(test::parameters_with_spacing(kSpacing)));
+  ImplicitSurface surface = evaluate_implicit_function(grid, test::parameters_with_spacing(kSpacing));
   surface.triangulation = triangulate_zero_level(*surface.field, surface.dx);
   return surface;
 }
@@ -66,7 +61,8 @@ TEST(ComponentDisagreement, FlagsAMeshThatHoldsTwoBodiesTogether) {
   const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
   const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
   const std::vector<openvdb::Coord> cells =
-      find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), parameters()).bridge_cells;
+      find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), test::parameters_with_spacing(kSpacing))
+          .bridge_cells;
   ASSERT_FALSE(cells.empty());
   EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
   // The bodies are 0.3 apart; cells are 0.05 wide.
@@ -78,13 +74,17 @@ TEST(ComponentDisagreement, LeavesWhatItWasBornWithAlone) {
   TriangleMesh mesh = stretched_ellipsoid();
   const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
   note_bridges(mesh, IsosurfaceQuery(surface, kH));
-  EXPECT_TRUE(find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), parameters()).none());
+  EXPECT_TRUE(
+      find_component_disagreement(mesh, count, IsosurfaceQuery(surface, kH), test::parameters_with_spacing(kSpacing))
+          .none());
 
   std::uint32_t first_new_id = 0;
   const TriangleMesh with_scrap = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
   const auto all = static_cast<std::uint32_t>(with_scrap.vertex_count());
   const ImplicitSurface one = surface_of_balls({0.0});
-  EXPECT_TRUE(find_component_disagreement(with_scrap, all, IsosurfaceQuery(one, kH), parameters()).none());
+  EXPECT_TRUE(
+      find_component_disagreement(with_scrap, all, IsosurfaceQuery(one, kH), test::parameters_with_spacing(kSpacing))
+          .none());
 }
 
 TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
@@ -92,16 +92,19 @@ TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
   const TriangleMesh mesh = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
   const ImplicitSurface one = surface_of_balls({0.0});
   const std::vector<openvdb::Coord> cells =
-      find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(one, kH), parameters()).scrap_cells;
+      find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(one, kH), test::parameters_with_spacing(kSpacing))
+          .scrap_cells;
   ASSERT_FALSE(cells.empty());
   for (const openvdb::Coord& cell : cells) EXPECT_GT(cell.x() * 0.05, 0.7) << cell;
   // With liquid of its own it is no scrap.
   const ImplicitSurface two = surface_of_balls({0.0, 1.3});
-  EXPECT_TRUE(find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(two, kH), parameters()).none());
+  EXPECT_TRUE(
+      find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(two, kH), test::parameters_with_spacing(kSpacing))
+          .none());
 }
 
 TEST(ComponentDisagreement, CanBeTurnedOff) {
-  Parameters only_tau = parameters();
+  Parameters only_tau = test::parameters_with_spacing(kSpacing);
   only_tau.detection = DetectionMethod::kTau;
   const TriangleMesh mesh = stretched_ellipsoid();
   const auto count = static_cast<std::uint32_t>(mesh.vertex_count());

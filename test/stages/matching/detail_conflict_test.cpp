@@ -35,7 +35,8 @@ struct SplitTooEarly {
   std::vector<openvdb::Coord> drop_cells = cells_where(mesh, [](const Vec3d& x) { return x.x() > 0.2; });
 
   int components(const std::vector<openvdb::Coord>& at_conflicts) const {
-    const MatchedVoxelization matched = match_topology(lattice, isosurface, {}, make_parameters(), at_conflicts);
+    const MatchedVoxelization matched =
+        match_topology(MeshQuery(lattice), isosurface, {}, make_parameters(), at_conflicts);
     return count_components(nodes_inside(lattice, matched));
   }
 };
@@ -43,13 +44,13 @@ struct SplitTooEarly {
 std::vector<Vec3f> uncovered_in(const TriangleMesh& mesh, const ImplicitSurface& surface, const Vec3f& particle,
                                 double reach = kR) {
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
-  return find_uncovered_particles({Vec3f(-0.5F, 0.0F, 0.0F), particle}, lattice, {}, mesh, IsosurfaceQuery(surface, kH),
-                                  reach, make_parameters());
+  return find_uncovered_particles({Vec3f(-0.5F, 0.0F, 0.0F), particle}, MeshQuery(lattice), {}, mesh,
+                                  IsosurfaceQuery(surface, kH), reach, make_parameters());
 }
 
 TEST(DetailConflict, NoneWithoutPiecesAndParticles) {
   const SplitTooEarly split;
-  EXPECT_TRUE(find_conflicting_nodes(split.lattice, {}, {}, split.isosurface, make_parameters()).empty());
+  EXPECT_TRUE(find_conflicting_nodes(MeshQuery(split.lattice), {}, {}, split.isosurface, make_parameters()).empty());
 }
 
 TEST(DetailConflict, AScrapIsJoinedToItsBodyAlongTheLiquid) {
@@ -57,7 +58,7 @@ TEST(DetailConflict, AScrapIsJoinedToItsBodyAlongTheLiquid) {
   ASSERT_EQ(split.components({}), 2);
   ComponentDisagreement pieces;
   pieces.scrap_cells = split.drop_cells;
-  const auto nodes = find_conflicting_nodes(split.lattice, pieces, {}, split.isosurface, make_parameters());
+  const auto nodes = find_conflicting_nodes(MeshQuery(split.lattice), pieces, {}, split.isosurface, make_parameters());
   EXPECT_TRUE(std::is_sorted(nodes.begin(), nodes.end()));
   EXPECT_EQ(split.components(nodes), 1);
 }
@@ -66,7 +67,7 @@ TEST(DetailConflict, ALargePieceIsJoinedByItsNeckAlone) {
   const SplitTooEarly split;
   ComponentDisagreement pieces;
   pieces.stray_cells = split.drop_cells;
-  const auto nodes = find_conflicting_nodes(split.lattice, pieces, {}, split.isosurface, make_parameters());
+  const auto nodes = find_conflicting_nodes(MeshQuery(split.lattice), pieces, {}, split.isosurface, make_parameters());
   EXPECT_EQ(split.components(nodes), 1);
   // What is beyond the middle of the drop keeps its detail.
   for (const openvdb::Coord& node : nodes) EXPECT_LT(place(node).x(), 0.45) << node;
@@ -77,7 +78,9 @@ TEST(DetailConflict, LiquidThatIsFarAwayIsNotJoined) {
   const ImplicitSurface apart = make_surface(either(kBody, kDrop));
   ComponentDisagreement pieces;
   pieces.stray_cells = split.drop_cells;
-  EXPECT_TRUE(find_conflicting_nodes(split.lattice, pieces, {}, IsosurfaceQuery(apart, kH), make_parameters()).empty());
+  EXPECT_TRUE(
+      find_conflicting_nodes(MeshQuery(split.lattice), pieces, {}, IsosurfaceQuery(apart, kH), make_parameters())
+          .empty());
 }
 
 TEST(DetailConflict, AParticleThatTheMeshLostGetsASurface) {
@@ -88,8 +91,8 @@ TEST(DetailConflict, AParticleThatTheMeshLostGetsASurface) {
   const std::vector<Vec3f> uncovered = uncovered_in(mesh, surface, {0.12F, 0.01F, 0.02F});
   ASSERT_EQ(uncovered.size(), 1U);
   EXPECT_EQ(uncovered.front().x(), 0.12F);
-  const auto nodes = find_conflicting_nodes(lattice, {}, uncovered, isosurface, make_parameters());
-  const MatchedVoxelization matched = match_topology(lattice, isosurface, {}, make_parameters(), nodes);
+  const auto nodes = find_conflicting_nodes(MeshQuery(lattice), {}, uncovered, isosurface, make_parameters());
+  const MatchedVoxelization matched = match_topology(MeshQuery(lattice), isosurface, {}, make_parameters(), nodes);
   const Nodes inside = nodes_inside(lattice, matched);
   EXPECT_EQ(count_components(inside), 1);
   EXPECT_EQ(inside.count({2, 0, 0}), 1U);
@@ -115,9 +118,9 @@ TEST(UncoveredParticles, AreNotLookedForByTauAlone) {
   const ImplicitSurface surface = make_surface(either(kBody, ball({0.11, 0.01, 0.02}, 0.13)));
   Parameters only_tau = make_parameters();
   only_tau.detection = DetectionMethod::kTau;
-  EXPECT_TRUE(
-      find_uncovered_particles({{0.12F, 0.01F, 0.02F}}, lattice, {}, mesh, IsosurfaceQuery(surface, kH), kR, only_tau)
-          .empty());
+  EXPECT_TRUE(find_uncovered_particles({{0.12F, 0.01F, 0.02F}}, MeshQuery(lattice), {}, mesh,
+                                       IsosurfaceQuery(surface, kH), kR, only_tau)
+                  .empty());
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ Disagreement find(const TriangleMesh& mesh, const Body& body, double delta = 0.0
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
   const std::vector<float> deltas(mesh.vertex_count(), static_cast<float>(delta));
   const ImplicitSurface surface = make_surface(body, dx);
-  return find_disagreement(lattice, deltas, IsosurfaceQuery(surface, lattice.h()), make_parameters());
+  return find_disagreement(MeshQuery(lattice), deltas, IsosurfaceQuery(surface, lattice.h()), make_parameters());
 }
 
 /// All nodes of the disagreement are on the inner side of a body, or just outside, and there are some.
@@ -99,7 +99,7 @@ TEST(Disagreement, IsOffWhereOnlyTauCounts) {
   const TriangleMesh none;
   const MeshLattice lattice(none.positions(), none.triangles(), kH);
   const ImplicitSurface surface = make_surface(kBody);
-  EXPECT_TRUE(find_disagreement(lattice, {}, IsosurfaceQuery(surface, kH), parameters).nodes.empty());
+  EXPECT_TRUE(find_disagreement(MeshQuery(lattice), {}, IsosurfaceQuery(surface, kH), parameters).nodes.empty());
 }
 
 TEST(Disagreement, IsTheSameForAnyNumberOfThreads) {
@@ -133,7 +133,7 @@ TEST(Disagreement, ARigidMotionOfADetailedBodyFlagsNothing) {
     const TriangleMesh& mesh = tracker.mesh();
     const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
     const IsosurfaceQuery isosurface(*tracker.implicit_surface(), lattice.h());
-    const Disagreement found = find_disagreement(lattice, mesh.delta(), isosurface, parameters);
+    const Disagreement found = find_disagreement(MeshQuery(lattice), mesh.delta(), isosurface, parameters);
     EXPECT_TRUE(found.nodes.empty()) << "frame " << n << ": " << found.nodes.size() << " nodes";
   }
 }

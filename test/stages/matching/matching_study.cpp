@@ -42,7 +42,7 @@ struct Run {
 Run run(const MeshLattice& lattice, const ImplicitSurface& surface, const std::vector<openvdb::Coord>& cells,
         const Parameters& parameters) {
   const double begin = cpu_ms();
-  Run result{match_topology(lattice, IsosurfaceQuery(surface, lattice.h()), cells, parameters)};
+  Run result{match_topology(MeshQuery(lattice), IsosurfaceQuery(surface, lattice.h()), cells, parameters)};
   result.milliseconds = cpu_ms() - begin;
   return result;
 }
@@ -92,7 +92,7 @@ void study_frame(std::size_t frame, const Tracker& tracker, const Options& optio
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), h);
   const double begin = cpu_ms();
   const IsosurfaceQuery isosurface(*tracker.implicit_surface(), lattice.h());
-  const Disagreement disagreement = find_disagreement(lattice, mesh.delta(), isosurface, parameters);
+  const Disagreement disagreement = find_disagreement(MeshQuery(lattice), mesh.delta(), isosurface, parameters);
   const double end = cpu_ms();
   std::vector<openvdb::Coord> cells = tracker.detection().flagged_cells;
   const std::size_t by_tau = cells.size();

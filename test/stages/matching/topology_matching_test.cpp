@@ -28,7 +28,7 @@ struct Case {
         lattice(mesh.positions(), mesh.triangles(), kH) {}
 
   MatchedVoxelization match(const Parameters& parameters) const {
-    return match_topology(lattice, IsosurfaceQuery(surface, kH), flagged, parameters);
+    return match_topology(MeshQuery(lattice), IsosurfaceQuery(surface, kH), flagged, parameters);
   }
 };
 
@@ -54,7 +54,7 @@ Parameters with(const std::string& name, const std::string& value, Parameters pa
 TEST(TopologyMatching, WithoutFlagsNothingIsDone) {
   const Case balls = joining_balls();
   const MatchedVoxelization matched =
-      match_topology(balls.lattice, IsosurfaceQuery(balls.surface, kH), {}, make_parameters());
+      match_topology(MeshQuery(balls.lattice), IsosurfaceQuery(balls.surface, kH), {}, make_parameters());
   EXPECT_TRUE(matched.nodes.empty());
   EXPECT_TRUE(matched.changed.empty());
   EXPECT_EQ(matched.statistics.unknowns, 0u);
@@ -133,7 +133,7 @@ TEST(TopologyMatching, WhereNoFixedNodeIsGammaIsPhi) {
   std::vector<openvdb::Coord> at_drop;
   for (const openvdb::Coord& node : nodes_inside(drop)) at_drop.push_back(node);
   const MatchedVoxelization matched =
-      match_topology(birth.lattice, IsosurfaceQuery(birth.surface, kH), at_drop, make_parameters());
+      match_topology(MeshQuery(birth.lattice), IsosurfaceQuery(birth.surface, kH), at_drop, make_parameters());
   EXPECT_EQ(matched.statistics.fixed, 0u);
   EXPECT_EQ(matched.statistics.free_unknowns, matched.nodes.size());
   EXPECT_EQ(matched.changed, at_drop) << "flagged were exactly the drop's nodes, sorted";
@@ -152,7 +152,7 @@ TEST(TopologyMatching, AMeshCanBeginWithNothing) {
   const std::vector<Triangle> triangles;
   const MeshLattice lattice(positions, triangles, kH);
   const MatchedVoxelization matched =
-      match_topology(lattice, IsosurfaceQuery(surface, kH), {{7, 4, 6}}, make_parameters());
+      match_topology(MeshQuery(lattice), IsosurfaceQuery(surface, kH), {{7, 4, 6}}, make_parameters());
   EXPECT_EQ(nodes_inside(lattice, matched), nodes_inside(drop)) << "the region has to grow over the whole drop";
   EXPECT_GT(matched.statistics.enlargements, 0);
 }
@@ -163,7 +163,7 @@ TEST(TopologyMatching, TheRegionGrowsWhereASideChangesAtItsRim) {
   const Body block = ball({0, 0, 0}, 1.3);
   const Case born(block, without(block, bubble), [](const Vec3d&) { return false; });
   const MatchedVoxelization matched =
-      match_topology(born.lattice, IsosurfaceQuery(born.surface, kH), {{-14, 0, 0}}, make_parameters());
+      match_topology(MeshQuery(born.lattice), IsosurfaceQuery(born.surface, kH), {{-14, 0, 0}}, make_parameters());
   EXPECT_GT(matched.statistics.enlargements, 0);
   EXPECT_EQ(Nodes(matched.changed.begin(), matched.changed.end()), nodes_inside(bubble));
 }
@@ -183,7 +183,7 @@ TEST(TopologyMatching, NodesInAnOverlapAreNotFixed) {
   const MeshLattice lattice(positions, triangles, kH);
   const ImplicitSurface surface = make_surface(either(left, right));
   const MatchedVoxelization matched =
-      match_topology(lattice, IsosurfaceQuery(surface, kH), {{0, 8, 0}}, make_parameters());
+      match_topology(MeshQuery(lattice), IsosurfaceQuery(surface, kH), {{0, 8, 0}}, make_parameters());
   EXPECT_TRUE(matched.changed.empty()) << matched.changed.size();
   for (std::size_t n = 0; n < matched.nodes.size(); ++n) {
     const Vec3d p = place(matched.nodes[n]);
@@ -265,8 +265,9 @@ TEST(TopologyMatching, AWholeDomainThatIsTooLargeIsAnError) {
   }
   const MeshLattice lattice(positions, triangles, kH);
   const ImplicitSurface surface = make_surface(ball({0, 0, 0}, 0.3));
-  EXPECT_THROW(match_topology(lattice, IsosurfaceQuery(surface, kH), {{0, 0, 0}}, with("matching_reach", "0")),
-               TrackingError);
+  EXPECT_THROW(
+      match_topology(MeshQuery(lattice), IsosurfaceQuery(surface, kH), {{0, 0, 0}}, with("matching_reach", "0")),
+      TrackingError);
 }
 
 }  // namespace
