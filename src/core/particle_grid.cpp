@@ -8,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include <emmintrin.h>
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
@@ -16,27 +17,61 @@ namespace particle_surface_tracker {
 
 namespace {
 
-constexpr double kLargestCell = 1 << 30;
+constexpr double kFarthestCell = 1 << 30;
 constexpr std::uint32_t kCellsPerTile = ParticleGrid::tile_width * ParticleGrid::tile_width * ParticleGrid::tile_width;
 
-/// std::floor is a library call on plain x86-64; this is not. The value must fit.
-std::int32_t floor_to_int(double value) {
-  const auto truncated = static_cast<std::int32_t>(value);
-  return truncated - static_cast<std::int32_t>(value < truncated);
+/// Coordinates of a cell in one register; the fourth means nothing.
+using CellLanes = std::int32_t __attribute__((vector_size(16)));
+
+/// Finds the cells that positions lie in, all coordinates at once.
+class CellFinder {
+ public:
+  explicit CellFinder(double cells_per_meter) : cells_per_meter_(_mm_set1_pd(cells_per_meter)) {}
+
+  CellLanes cell_of(const Vec3d& position) const {
+    return nearest_nodes(_mm_loadu_pd(position.data()) * cells_per_meter_,
+                         _mm_load_sd(position.data() + 2) * cells_per_meter_);
+  }
+
+  /// \return false if the position is too far from the origin, or not a number.
+  bool find(const Vec3f& position, CellLanes& cell) const {
+    const __m128d xy = _mm_cvtps_pd(_mm_setr_ps(position.x(), position.y(), 0.0f, 0.0f)) * cells_per_meter_;
+    const __m128d z = _mm_cvtps_pd(_mm_set_ss(position.z())) * cells_per_meter_;
+    const __m128d sign = _mm_set1_pd(-0.0);
+    const __m128d farthest = _mm_max_pd(_mm_andnot_pd(sign, z), _mm_andnot_pd(sign, xy));
+    cell = nearest_nodes(xy, z);
+    return _mm_movemask_pd(_mm_cmple_pd(farthest, _mm_set1_pd(kFarthestCell))) == 3 && z[0] == z[0];
+  }
+
+ private:
+  /// Rounds down after adding a half: std::floor is a library call on plain x86-64.
+  static CellLanes nearest_nodes(const __m128d& xy, const __m128d& z) {
+    const __m128d half = _mm_set1_pd(0.5);
+    const __m128d up_xy = xy + half;
+    const __m128d up_z = z + half;
+    const __m128i cut_xy = _mm_cvttpd_epi32(up_xy);
+    const __m128i cut_z = _mm_cvttpd_epi32(up_z);
+    const __m128 too_high_xy = _mm_castpd_ps(_mm_cmplt_pd(up_xy, _mm_cvtepi32_pd(cut_xy)));
+    const __m128 too_high_z = _mm_castpd_ps(_mm_cmplt_pd(up_z, _mm_cvtepi32_pd(cut_z)));
+    const __m128i too_high = _mm_castps_si128(_mm_shuffle_ps(too_high_xy, too_high_z, _MM_SHUFFLE(2, 0, 2, 0)));
+    return CellLanes(_mm_add_epi32(_mm_unpacklo_epi64(cut_xy, cut_z), too_high));
+  }
+
+  __m128d cells_per_meter_;
+};
+
+LatticeCoord to_coord(const CellLanes& cell) {
+  return {cell[0], cell[1], cell[2]};
 }
 
-LatticeCoord cell_at(const Vec3d& position, double cell_size) {
-  return {floor_to_int(position.x() / cell_size + 0.5), floor_to_int(position.y() / cell_size + 0.5),
-          floor_to_int(position.z() / cell_size + 0.5)};
+bool is_same(const CellLanes& a, const CellLanes& b) {
+  return (_mm_movemask_ps(_mm_castsi128_ps(__m128i(a == b))) & 7) == 7;
 }
 
-std::uint32_t cell_in_tile(const LatticeCoord& cell) {
+/// \tparam Cell LatticeCoord or CellLanes.
+template <typename Cell>
+std::uint32_t cell_in_tile(const Cell& cell) {
   return static_cast<std::uint32_t>((cell[0] & 7) * 64 + (cell[1] & 7) * 8 + (cell[2] & 7));
-}
-
-bool is_within(const Vec3f& position, double limit) {
-  return std::abs(double{position.x()}) <= limit && std::abs(double{position.y()}) <= limit &&
-         std::abs(double{position.z()}) <= limit;
 }
 
 [[noreturn]] void throw_too_far(const Vec3f& position, std::size_t index, double cell_size) {
@@ -61,7 +96,8 @@ double squared_distance_to_tile(const Vec3d& position, const LatticeCoord& tile,
 
 }  // namespace
 
-ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size) : cell_size_(cell_size) {
+ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size)
+    : cell_size_(cell_size), cells_per_meter_(1.0 / cell_size) {
   if (!(cell_size > 0.0 && std::isfinite(cell_size))) {
     throw ParameterError(
         fmt::format("The cell size of a particle grid is {} m; it must be a positive number.", cell_size));
@@ -71,13 +107,19 @@ ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size
   std::vector<std::uint16_t> cell_of_particle(count);
 
   // Counts per cell, in the order in which the tiles appear.
-  const double limit = kLargestCell * cell_size;
+  const CellFinder finder(cells_per_meter_);
+  CellLanes last_tile{};
+  std::uint32_t slot = LatticeIndex::none;
   for (std::size_t n = 0; n < count; ++n) {
-    // Negated, so that a NaN fails it too.
-    if (!is_within(positions[n], limit)) throw_too_far(positions[n], n, cell_size);
-    const LatticeCoord cell = cell_at(positions[n].cast<double>(), cell_size);
-    const std::uint32_t slot = tile_index_.find_or_insert(tile_of(cell));
-    if (slot == tiles_.size()) tiles_.push_back({tile_of(cell), {}});
+    CellLanes cell;
+    if (!finder.find(positions[n], cell)) throw_too_far(positions[n], n, cell_size);
+    // Neighbours in the input are mostly neighbours in space.
+    const CellLanes tile = cell >> 3;
+    if (slot == LatticeIndex::none || !is_same(tile, last_tile)) {
+      last_tile = tile;
+      slot = tile_index_.find_or_insert(to_coord(tile));
+      if (slot == tiles_.size()) tiles_.push_back({to_coord(tile), {}});
+    }
     tile_of_particle[n] = slot;
     cell_of_particle[n] = static_cast<std::uint16_t>(cell_in_tile(cell));
     ++tiles_[slot].begin[cell_of_particle[n]];
@@ -119,7 +161,7 @@ ParticleGrid::ParticleGrid(const std::vector<Vec3f>& positions, double cell_size
 }
 
 LatticeCoord ParticleGrid::cell_of(const Vec3d& position) const {
-  return cell_at(position, cell_size_);
+  return to_coord(CellFinder(cells_per_meter_).cell_of(position));
 }
 
 std::uint32_t ParticleGrid::count(const LatticeCoord& cell) const {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "core/instruction_set.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
@@ -148,6 +149,42 @@ TEST(Advection, RestLeavesEveryBit) {
   const std::vector<Vec3f> vertices = test::make_sphere(Vec3d(0.001, 0.002, 0.003), 0.49, 3).positions();
   for (const AdvectionMethod method : {AdvectionMethod::kAverage, AdvectionMethod::kAffine}) {
     EXPECT_EQ(advected(vertices, frame, frame, with(method)), vertices);
+  }
+}
+
+TEST(Advection, RestLeavesEveryBitBesideSomethingThatMoves) {
+  ParticleFrame from = ball(0.3, 0.3);
+  const std::size_t resting = from.size();
+  for (std::size_t n = 0; n < resting; ++n) {
+    from.positions.push_back(from.positions[n] - Vec3f(1.0f, 0.0f, 0.0f));
+    from.ids.push_back(static_cast<std::uint32_t>(from.ids.back() + 1));
+  }
+  ParticleFrame to = from;
+  for (std::size_t n = resting; n < to.size(); ++n) to.positions[n] += Vec3f(0.013f, 0.007f, -0.011f);
+  const std::vector<Vec3f> vertices = test::make_sphere(Vec3d(0.001, 0.002, 0.003), 0.29, 3).positions();
+  for (const AdvectionMethod method : {AdvectionMethod::kAverage, AdvectionMethod::kAffine}) {
+    EXPECT_EQ(advected(vertices, from, to, with(method)), vertices);
+  }
+}
+
+TEST(Advection, InstructionSetsDoNotChangeIt) {
+  const ParticleFrame from = ball(0.5, 0.3);
+  const ParticleFrame to = moved(from, [](const Vec3d& x) -> Vec3d {
+    return slanted_turn(0.2) * x + 0.02 * Vec3d(x.y() * x.z(), std::sin(9.0 * x.x()), x.x() * x.x());
+  });
+  // Also some that lie so far outside that the first radius does not do.
+  std::vector<Vec3f> vertices = test::make_sphere(Vec3d(0.001, 0.002, 0.003), 0.49, 4).positions();
+  const std::vector<Vec3f> outside = test::make_sphere(Vec3d::Zero(), 0.68, 2).positions();
+  vertices.insert(vertices.end(), outside.begin(), outside.end());
+  for (const AdvectionMethod method : {AdvectionMethod::kAverage, AdvectionMethod::kAffine}) {
+    std::vector<Vec3f> first;
+    for (const InstructionSet set : {InstructionSet::kBaseline, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+      if (!is_supported(set)) continue;
+      const ForcedInstructionSet forced(set);
+      const std::vector<Vec3f> result = advected(vertices, from, to, with(method));
+      if (first.empty()) first = result;
+      EXPECT_EQ(result, first);
+    }
   }
 }
 

@@ -142,6 +142,7 @@ class ParticleGrid {
   }
 
   double cell_size_ = 1.0;
+  double cells_per_meter_ = 1.0;
   std::vector<float> x_, y_, z_;
   std::vector<std::uint32_t> index_;
   std::vector<Tile> tiles_;

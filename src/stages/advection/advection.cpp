@@ -1,7 +1,5 @@
 #include "particle_surface_tracker/stages/advection.h"
 
-#include <cstdint>
-
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -36,19 +34,15 @@ std::vector<Vec3f> advect(const std::vector<Vec3f>& vertices, const ParticleMoti
   if (motion.positions.empty() || vertices.empty()) return advected;
 
   const SortedMotion sorted(motion, grid);
-  const ParticleGrid vertex_grid(vertices, VertexAdvection::group_size(grid));
+  const ParticleGrid vertex_grid(vertices, VertexAdvection::cell_size(grid));
   const auto& tiles = vertex_grid.tiles();
-  const std::uint32_t* const order = vertex_grid.index().data();
   tbb::enumerable_thread_specific<VertexAdvection> advections([&] { return VertexAdvection(sorted, parameters); });
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, tiles.size()), [&](const tbb::blocked_range<std::size_t>& range) {
-        VertexAdvection& advection = advections.local();
-        for (std::size_t t = range.begin(); t != range.end(); ++t) {
-          ParticleGrid::for_each_cell(tiles[t], [&](const LatticeCoord& cell, std::uint32_t begin, std::uint32_t end) {
-            advection.advect_group(cell, order + begin, order + end, vertices, advected);
-          });
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size()), [&](const auto& range) {
+    VertexAdvection& advection = advections.local();
+    for (std::size_t t = range.begin(); t != range.end(); ++t) {
+      advection.advect_tile(tiles[t], vertex_grid.index(), vertices, advected);
+    }
+  });
   return advected;
 }
 

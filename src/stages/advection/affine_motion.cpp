@@ -11,12 +11,6 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Numbers that the fit takes from the neighbours, per component of the displacement.
-constexpr double kFitUnknowns = 4.0;
-
-/// With as few neighbours as unknowns any motion fits.
-constexpr double kLeastFreedom = 0.1;
-
 /// Of the unexplained motion, in single precision, per displacement.
 constexpr double kRounding = 1e-3;
 
@@ -114,14 +108,6 @@ bool is_motion_settled(const MotionSums& sums, double r, const Parameters& param
   if (!(sums.weight() > 0.0f)) return false;
   const CentralMoments m = central_moments(sums);
   return m.mean_square == 0.0 || spreads_in_all_directions(m, parameters.affine_rank_threshold * r * r);
-}
-
-double settling_factor(int neighbors) {
-  return neighbors / std::max(neighbors - kFitUnknowns, kLeastFreedom);
-}
-
-double trust_in_fit(double misfit, double r, const Parameters& parameters) {
-  return std::min(1.0, std::max(0.0, 2.0 - misfit / (parameters.affine_max_residual * r)));
 }
 
 Vec3d average_displacement(const MotionSums& s) {

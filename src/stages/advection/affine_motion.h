@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include <Eigen/Core>
@@ -49,9 +50,15 @@ bool is_motion_settled(const MotionSums& sums, double r, const Parameters& param
 
 /// How much the unexplained variance of a fit counts by the number of particles that settle it: with as few particles
 /// as unknowns any motion fits.
-double settling_factor(int neighbors);
+inline double settling_factor(int neighbors) {
+  constexpr double unknowns = 4.0;       // Numbers that the fit takes from the neighbours, per component of u.
+  constexpr double least_freedom = 0.1;  // With as few neighbours as unknowns any motion fits.
+  return neighbors / std::max(neighbors - unknowns, least_freedom);
+}
 
 /// 1 where the misfit of a fit (root mean square [m]) is below affine_max_residual, 0 from twice that on.
-double trust_in_fit(double misfit, double r, const Parameters& parameters);
+inline double trust_in_fit(double misfit, double r, const Parameters& parameters) {
+  return std::min(1.0, std::max(0.0, 2.0 - misfit / (parameters.affine_max_residual * r)));
+}
 
 }  // namespace particle_surface_tracker

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <vector>
 
 #include "motion_kernel.h"
@@ -18,16 +18,19 @@ class SortedMotion {
   const ParticleMotion& particles() const { return particles_; }
   const ParticleGrid& grid() const { return grid_; }
 
+  /// Positions and displacements in the order of the grid.
+  MotionArrays arrays() const;
+
   /// Of the sorted particle n [m].
-  const Vec3f& displacement(std::size_t n) const { return displacements_[n]; }
+  Vec3f displacement(std::size_t n) const { return {displacements_[0][n], displacements_[1][n], displacements_[2][n]}; }
 
  private:
   const ParticleMotion& particles_;
   const ParticleGrid& grid_;
-  std::vector<Vec3f> displacements_;
+  std::array<std::vector<float>, 3> displacements_;
 };
 
-/// The particles around a group of vertices, ready for the sums. One object per thread.
+/// The particles around some vertices. One object per thread.
 class Neighborhood {
  public:
   /// Takes the particles that are nearer than `radius` to a box, in the order of the grid.
@@ -37,17 +40,28 @@ class Neighborhood {
   void gather(const SortedMotion& motion, const MotionKernel& kernel, const Vec3f& origin, const Vec3f& lower,
               const Vec3f& upper, double radius);
 
+  /// Takes them from a larger neighbourhood that holds all of them, and makes them ready for sum().
+  /// \param origin relative to that of the larger one [m].
+  void gather(const Neighborhood& larger, const MotionKernel& kernel, const Vec3f& origin, const Vec3f& lower,
+              const Vec3f& upper, double radius);
+
   /// Sums over the particles for every lane of a batch (Sec. 4, poly6).
   void sum(const MotionKernel& kernel, double radius, MotionBatch& batch);
 
   /// The sums of one lane of a batch.
   MotionSums sums_of(const MotionBatch& batch, int lane) const;
 
+  /// What the displacements in the sums are relative to: that of one of the particles, so that they are 0 where all
+  /// move alike.
   const Vec3f& reference() const { return reference_; }
 
  private:
-  std::vector<std::uint32_t> near_;  // of the sorted particles
-  std::vector<NearParticle> particles_;
+  /// Makes room for as many particles more, and for what the kernel writes beyond the end.
+  void reserve(std::size_t more);
+  NearParticles near();
+  MotionArrays arrays() const;
+
+  std::array<std::vector<float>, 7> numbers_;  // positions, displacements, squared displacements
   std::size_t count_ = 0;
   Vec3f reference_ = Vec3f::Zero();
   std::vector<float> weights_;

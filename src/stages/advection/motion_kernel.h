@@ -10,24 +10,25 @@ namespace particle_surface_tracker {
 
 /// The particles that matter to a group of vertices: those near a box around them.
 struct GroupBox {
-  std::array<float, 3> origin;  ///< Of the group [m].
+  std::array<float, 3> origin;  ///< Of the group, in the coordinates of the particles [m].
   std::array<float, 3> lower;   ///< Relative to the origin [m].
   std::array<float, 3> upper;
   float squared_reach;  ///< Particles nearer to the box than its root are near [m²].
 };
 
-/// Coordinates of particles, one array each [m].
-struct Coordinates {
-  std::array<const float*, 3> axis;
+/// Particles and their displacements, one array per coordinate [m].
+struct MotionArrays {
+  std::array<const float*, 3> position;
+  std::array<const float*, 3> displacement;
   std::size_t size;
 };
 
-/// A particle near a group of vertices.
-struct NearParticle {
-  std::array<float, 3> position;      ///< Relative to the group's origin [m].
-  std::array<float, 3> displacement;  ///< Minus the group's reference [m].
-  float squared_displacement;         ///< |displacement|² [m²].
-  float unused;                       ///< Fills up half a cache line.
+/// Particles near a group of vertices, one array per number. The arrays have room for as many numbers more as there are
+/// lanes.
+struct NearParticles {
+  std::array<float*, 3> position;      ///< Relative to the group's origin [m].
+  std::array<float*, 3> displacement;  ///< Minus the group's reference [m].
+  float* squared_displacement;         ///< |displacement|² [m²].
 };
 
 /// Vertices whose motion is found together, one per lane. Every lane is as if it were alone.
@@ -53,17 +54,24 @@ struct PlainFit {
   float largest_squared_gradient;  ///< Squared Frobenius norm of A up to which no stretch can be beyond its bound.
 };
 
+/// Numbers that MotionKernel::sum() keeps for each particle: its weight and the weighted offset, for all lanes.
+constexpr std::size_t kWeightNumbers = 4 * MotionBatch::lanes;
+
 /// All for one set of instructions.
 struct MotionKernel {
-  /// Lists those of the particles [begin, end) that are near a box, in their order.
-  /// \param near has room for as many as there are.
-  /// \return how many.
-  std::size_t (*select)(const Coordinates& particles, std::size_t begin, std::size_t end, const GroupBox& box,
-                        std::uint32_t* near);
+  /// Appends those of the particles [begin, end) that are near a box, in their order, with their displacements as they
+  /// are.
+  /// \param near holds `count` so far and has room for as many more as there are particles.
+  /// \return how many it holds then.
+  std::size_t (*gather)(const MotionArrays& particles, std::size_t begin, std::size_t end, const GroupBox& box,
+                        const NearParticles& near, std::size_t count);
+
+  /// Subtracts a reference from the displacements, and squares them.
+  void (*refer)(const std::array<float, 3>& reference, const NearParticles& near, std::size_t count);
 
   /// Sums over the particles, weighted by poly6 without its constant, which cancels.
-  /// \param weights scratch for MotionBatch::lanes values per particle.
-  void (*sum)(const NearParticle* particles, std::size_t count, float inverse_squared_radius, float* weights,
+  /// \param weights scratch for kWeightNumbers values per particle.
+  void (*sum)(const NearParticles& particles, std::size_t count, float inverse_squared_radius, float* weights,
               MotionBatch& batch);
 
   /// The fit of docs/advection.md from the sums, where the particles spread in all directions and no bound is met.

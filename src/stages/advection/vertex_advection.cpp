@@ -5,11 +5,22 @@
 
 #include <Eigen/Geometry>
 
+#include "cell_box.h"
+
 namespace particle_surface_tracker {
 
 namespace {
 
-constexpr double kGroupWidth = 2.0;  // [cells of the particles' grid]
+constexpr double kCellWidth = 1.0;  // [cells of the particles' grid]
+
+/// Most cells in a box around a group: the more, the fuller the lanes, and the more particles are gathered for one
+/// vertex that do not matter to the others. Few vertices need more than the first radius, so they lie farther apart.
+constexpr int kMostCells = 12;
+constexpr int kMostCellsLater = 48;
+
+/// For the rounding of places relative to the origin of a tile.
+constexpr double kTileSlack = 1.0001;
+
 constexpr double kRadiusGrowth = 1.25;
 constexpr double kThreadReach = 2.0;         // times affine_max_radius
 constexpr double kLargestCorrection = 0.24;  // [r]
@@ -63,30 +74,35 @@ VertexAdvection::VertexAdvection(const SortedMotion& motion, const Parameters& p
       plain_{static_cast<float>(parameters.affine_rank_threshold * r_ * r_),
              static_cast<float>(parameters.affine_max_stretch * parameters.affine_max_stretch)} {}
 
-double VertexAdvection::group_size(const ParticleGrid& particles) {
-  return kGroupWidth * particles.cell_size();
+double VertexAdvection::cell_size(const ParticleGrid& particles) {
+  return kCellWidth * particles.cell_size();
 }
 
-void VertexAdvection::advect_group(const LatticeCoord& cell, const std::uint32_t* begin, const std::uint32_t* end,
-                                   const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected) {
-  const Vec3f center = (group_size(motion_.grid()) * Vec3d(cell[0], cell[1], cell[2])).cast<float>();
+void VertexAdvection::advect_tile(const ParticleGrid::Tile& tile, const std::vector<std::uint32_t>& order,
+                                  const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected) {
+  const Vec3f origin = vertices[order[tile.begin.front()]];
   pending_.clear();
-  for (const std::uint32_t* v = begin; v != end; ++v) {
-    Pending pending;
-    pending.vertex = *v;
-    pending.position = vertices[*v] - center;
-    pending_.push_back(pending);
-  }
+  ParticleGrid::for_each_cell(tile, [&](const LatticeCoord& cell, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t n = begin; n < end; ++n) {
+      // In place: a whole object copied right after its parts were written would have to wait for them.
+      Pending& pending = pending_.emplace_back();
+      pending.vertex = order[n];
+      pending.cell = cell;
+      pending.position = vertices[order[n]] - origin;
+    }
+  });
+  int most_cells = kMostCells;
   for (double radius = parameters_.advection_radius; !pending_.empty(); radius = next_radius(radius)) {
-    gather(center, radius);
+    gather(origin, radius);
     std::size_t kept = 0;
-    for (std::size_t first = 0; first < pending_.size(); first += MotionBatch::lanes) {
-      evaluate(first, radius);
-      for (int lane = 0; lane < batch_.used; ++lane) {
-        Pending& pending = pending_[first + lane];
+    for (Group group{0, 0}; group.end < pending_.size();) {
+      group = group_at(group.end, most_cells);
+      evaluate(group, radius);
+      for (std::size_t n = group.begin; n < group.end; ++n) {
+        Pending& pending = pending_[n];
         const Vec3d vertex = vertices[pending.vertex].cast<double>();
         Vec3d displacement;
-        if (settle(lane, radius, vertex, pending, displacement)) {
+        if (settle(static_cast<int>(n - group.begin), radius, vertex, pending, displacement)) {
           advected[pending.vertex] = (vertex + displacement).cast<float>();
         } else {
           pending_[kept++] = pending;
@@ -94,24 +110,44 @@ void VertexAdvection::advect_group(const LatticeCoord& cell, const std::uint32_t
       }
     }
     pending_.resize(kept);
+    most_cells = kMostCellsLater;
   }
 }
 
-void VertexAdvection::gather(const Vec3f& center, double radius) {
+VertexAdvection::Group VertexAdvection::group_at(std::size_t begin, int most_cells) const {
+  CellBox box{pending_[begin].cell, pending_[begin].cell};
+  std::size_t end = begin + 1;
+  const std::size_t last = std::min<std::size_t>(begin + MotionBatch::lanes, pending_.size());
+  for (; end < last; ++end) {
+    const CellBox larger = box.with(pending_[end].cell);
+    if (larger.volume() > most_cells) break;
+    box = larger;
+  }
+  return {begin, end};
+}
+
+void VertexAdvection::gather(const Vec3f& origin, double radius) {
   Vec3f lower = pending_.front().position;
   Vec3f upper = lower;
   for (const Pending& pending : pending_) {
     lower = lower.cwiseMin(pending.position);
     upper = upper.cwiseMax(pending.position);
   }
-  around_.gather(motion_, kernel_, center, lower, upper, radius * r_);
+  around_tile_.gather(motion_, kernel_, origin, lower, upper, radius * r_ * kTileSlack);
 }
 
-void VertexAdvection::evaluate(std::size_t first, double radius) {
-  batch_.used = static_cast<int>(std::min<std::size_t>(MotionBatch::lanes, pending_.size() - first));
+void VertexAdvection::evaluate(const Group& group, double radius) {
+  const Vec3f origin = pending_[group.begin].position;
+  Vec3f lower = Vec3f::Zero();
+  Vec3f upper = Vec3f::Zero();
+  batch_.used = static_cast<int>(group.end - group.begin);
   for (int lane = 0; lane < batch_.used; ++lane) {
-    for (int axis = 0; axis < 3; ++axis) batch_.vertex[axis][lane] = pending_[first + lane].position[axis];
+    const Vec3f position = pending_[group.begin + lane].position - origin;
+    for (int axis = 0; axis < 3; ++axis) batch_.vertex[axis][lane] = position[axis];
+    lower = lower.cwiseMin(position);
+    upper = upper.cwiseMax(position);
   }
+  around_.gather(around_tile_, kernel_, origin, lower, upper, radius * r_);
   around_.sum(kernel_, radius * r_, batch_);
   kernel_.fit(plain_, batch_);
 }

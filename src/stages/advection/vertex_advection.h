@@ -14,32 +14,41 @@ class VertexAdvection {
   /// Both arguments must outlive this.
   VertexAdvection(const SortedMotion& motion, const Parameters& parameters);
 
-  /// Vertices are grouped by cells of this size [m]: large enough that they fill the lanes of the kernel and share the
-  /// work of gathering, small enough that most particles gathered for one count for the others.
-  static double group_size(const ParticleGrid& particles);
+  /// The cells of the grid that vertices are sorted into [m]: small enough that those in a few of them share most of
+  /// their neighbours.
+  static double cell_size(const ParticleGrid& particles);
 
-  /// Moves the vertices of one group.
-  /// \param cell of a lattice of cells of group_size().
-  /// \param begin, end range of their indices in `vertices`.
+  /// Moves the vertices of one tile.
+  /// \param tile of a grid with cells of cell_size().
+  /// \param order the sorted vertices of that grid, as indices into `vertices`.
   /// \param advected receives the new positions [m] at the same places.
-  void advect_group(const LatticeCoord& cell, const std::uint32_t* begin, const std::uint32_t* end,
-                    const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected);
+  void advect_tile(const ParticleGrid::Tile& tile, const std::vector<std::uint32_t>& order,
+                   const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected);
 
  private:
   /// A vertex whose displacement is not known yet.
   struct Pending {
     std::uint32_t vertex;
     bool has_average = false;
-    Vec3f position;                 // relative to the centre of the group [m]
+    LatticeCoord cell;
+    Vec3f position;                 // relative to the origin of the tile [m]
     Vec3d average = Vec3d::Zero();  // its displacement by `average` [m]
   };
 
-  /// Gathers the particles for all that are pending.
-  /// \param center of the group [m].
-  void gather(const Vec3f& center, double radius);
+  /// Some of those pending, one per lane.
+  struct Group {
+    std::size_t begin, end;
+  };
 
-  /// Sums and fits for those from `first` on, as many as there are lanes.
-  void evaluate(std::size_t first, double radius);
+  /// The group that begins with a vertex: as many of those that follow as there are lanes and as lie in few cells.
+  Group group_at(std::size_t begin, int most_cells) const;
+
+  /// Gathers the particles around all that are pending.
+  /// \param origin of the tile [m].
+  void gather(const Vec3f& origin, double radius);
+
+  /// Gathers those around a group of them, sums and fits.
+  void evaluate(const Group& group, double radius);
 
   /// The displacement of the vertex in a lane, if the particles within the radius settle it.
   /// \return false if they do not.
@@ -53,6 +62,7 @@ class VertexAdvection {
   const MotionKernel& kernel_;
   double r_;
   PlainFit plain_;
+  Neighborhood around_tile_;
   Neighborhood around_;
   MotionBatch batch_;
   std::vector<Pending> pending_;

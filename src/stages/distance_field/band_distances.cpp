@@ -23,8 +23,8 @@ using OutputLeaf = openvdb::FloatTree::LeafNodeType;
 constexpr int kWidth = 8;
 
 /// Up to here cells lower the distances of the nodes around them; the few nodes farther away look for themselves
-/// [cells]. No node in a tube of that height is beyond kFirstAround or kLastAround.
-constexpr double kScanHeight = 3.95;
+/// [cells]. No node nearer than that is beyond kFirstAround or kLastAround: no triangle lies in a side of its cell.
+constexpr double kScanHeight = 4.0;
 
 /// Parts into which the leaves fall so that the nodes around two leaves of one part are different ones: by whether
 /// their place along each axis is even or odd.
@@ -44,6 +44,7 @@ bool has_bit(const LeafWords& words, const openvdb::Coord& place) {
 
 /// Scratch of one thread.
 struct Workplace {
+  std::vector<TriangleShape> triangles;  ///< Of the leaf.
   CellShape shape;
   NodeList list;
   std::array<float, 512> unwanted{};  ///< Stands for every leaf of which no node is wanted.
@@ -102,9 +103,14 @@ class DistanceScan {
     }
     if (!is_wanted) return;
     const std::vector<CutCell>& cut = cells_.surface().triangulation.cells;
+    const TriangleRange range = cells_.triangles_of(leaf);
+    if (workplace.triangles.size() < range.end - range.begin + TriangleKernel::lanes) {
+      workplace.triangles.resize(2 * (range.end - range.begin) + TriangleKernel::lanes);
+    }
+    triangle_kernel_.make_shapes(range, workplace.triangles.data());
     for (std::uint32_t c = leaf.begin; c != leaf.end; ++c) {
       if (scanned_ && !has_bit(scanned_->leaves()[scanned].words, cut[c].origin - leaf.origin)) continue;
-      make_cell_shape(cells_, c, leaf.origin, workplace.shape);
+      make_cell_shape(cells_, c, workplace.triangles.data() + (cut[c].first_triangle - range.begin), workplace.shape);
       kernel_(workplace.shape, make_cell_tube(workplace.shape, static_cast<float>(height_)), workplace.list, targets);
     }
   }
@@ -135,6 +141,7 @@ class DistanceScan {
   double height_;
   std::optional<NodeMasks> scanned_;  ///< The cells that matter, unless nearly all do.
   CellKernel kernel_ = active_cell_kernel();
+  const TriangleKernel& triangle_kernel_ = active_triangle_kernel();
   std::vector<DistanceLeaf> leaves_;
 };
 

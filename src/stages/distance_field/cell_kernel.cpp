@@ -5,6 +5,7 @@
 
 #include <immintrin.h>
 
+#include "core/exact_multiply_add.h"
 #include "core/per_instruction_set.h"
 
 namespace particle_surface_tracker {

@@ -20,14 +20,33 @@ int dominant_axis(const Quad& direction) {
   return size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
 }
 
+/// Where lines through the corners reach slice 0, along the other two axes, at either ratio: the ends of what they
+/// cover.
+template <int Slice, int Row, int Column>
+void find_ends(const CellShape& shape, const Quad& ratio, Quad& low, Quad& high) {
+  low = Quad{} + kUnbounded;
+  high = -low;
+  for (int t = 0; t < shape.triangles; ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Quad& corner = shape.triangle[t].corner(i);
+      const Quad at_slice_0 = __builtin_shufflevector(corner, corner, Row, Row, Column, Column) -
+                              ratio * __builtin_shufflevector(corner, corner, Slice, Slice, Slice, Slice);
+      low = smaller(low, at_slice_0);
+      high = larger(high, at_slice_0);
+    }
+  }
+}
+
 }  // namespace
 
 CellTube make_cell_tube(const CellShape& shape, float height) {
-  Quad lowest = shape.corner[0];
+  Quad lowest = shape.triangle[0].corner(0);
   Quad highest = lowest;
-  for (int i = 1; i < shape.corners; ++i) {
-    lowest = smaller(lowest, shape.corner[i]);
-    highest = larger(highest, shape.corner[i]);
+  for (int t = 0; t < shape.triangles; ++t) {
+    for (int i = 0; i < 3; ++i) {
+      lowest = smaller(lowest, shape.triangle[t].corner(i));
+      highest = larger(highest, shape.triangle[t].corner(i));
+    }
   }
   const NormalBox& normals = shape.normals;
   CellTube tube;
@@ -57,16 +76,11 @@ CellTube make_cell_tube(const CellShape& shape, float height) {
   tube.first = lowest[tube.slice] - rise;
   tube.last = highest[tube.slice] + rise;
   const Quad ratio = {tube.ratio[0][0], tube.ratio[0][1], tube.ratio[1][0], tube.ratio[1][1]};
-  Quad low = Quad{} + kUnbounded;
-  Quad high = -low;
-  for (int i = 0; i < shape.corners; ++i) {
-    const Quad& corner = shape.corner[i];
-    const float row = corner[tube.side[0]];
-    const float column = corner[tube.side[1]];
-    const Quad at_slice_0 = Quad{row, row, column, column} - ratio * corner[tube.slice];
-    low = smaller(low, at_slice_0);
-    high = larger(high, at_slice_0);
-  }
+  Quad low;
+  Quad high;
+  (tube.slice == 0   ? find_ends<0, 1, 2>
+   : tube.slice == 1 ? find_ends<1, 0, 2>
+                     : find_ends<2, 0, 1>)(shape, ratio, low, high);
   const float slack = is_bounded ? kSlack : kUnbounded;
   for (int i = 0; i < 4; ++i) {
     tube.low[i >> 1][i & 1] = low[i] - slack;

@@ -1,12 +1,12 @@
 #include "closest_place.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include <openvdb/math/Proximity.h>
 
-#include "cell_shape.h"
 #include "stages/nodes/lattice_cell.h"
 
 namespace particle_surface_tracker {
@@ -14,6 +14,9 @@ namespace particle_surface_tracker {
 namespace {
 
 constexpr int kWidth = 8;
+
+/// Corners of the triangles of a cell.
+constexpr int kMostCorners = 3 * kMostCellTriangles;
 
 /// For rounding, of a distance [cells].
 constexpr float kSlack = 1e-3f;
@@ -92,20 +95,27 @@ const std::vector<ClosestPlaceSearch::Disc>& ClosestPlaceSearch::discs_of(const 
 }
 
 ClosestPlaceSearch::Disc ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const {
-  CellShape shape;
-  make_cell_shape(cells_, cell, leaf_origin, shape);
-  Quad low = shape.corner[0];
-  Quad high = low;
-  for (int i = 1; i < shape.corners; ++i) {
-    low = smaller(low, shape.corner[i]);
-    high = larger(high, shape.corner[i]);
+  const SurfaceTriangulation& mesh = cells_.surface().triangulation;
+  std::array<Quad, kMostCorners> corners;
+  int count = 0;
+  Quad low = Quad{} + std::numeric_limits<float>::max();
+  Quad high = -low;
+  NormalBox normals;
+  for (std::uint32_t t = mesh.cells[cell].first_triangle; t != mesh.cells[cell + 1].first_triangle; ++t) {
+    for (const std::uint32_t vertex : mesh.triangles[t]) {
+      const Quad corner = cells_.relative(vertex, leaf_origin);
+      low = smaller(low, corner);
+      high = larger(high, corner);
+      corners[count++] = corner;
+      normals.extend(cells_.normals().around(vertex));
+    }
   }
   const Quad center = 0.5f * (low + high);
-  const Vec3f mean = to_vector(shape.normals.lower + shape.normals.upper);
+  const Vec3f mean = to_vector(normals.lower + normals.upper);
   const float length = mean.norm();
   Disc disc = {to_vector(center), length > 0.0f ? Vec3f(mean / length) : Vec3f::UnitX(), 0.0f, kSlack};
-  for (int i = 0; i < shape.corners; ++i) {
-    const Vec3f offset = to_vector(shape.corner[i] - center);
+  for (int i = 0; i < count; ++i) {
+    const Vec3f offset = to_vector(corners[i] - center);
     disc.radius = std::max(disc.radius, offset.norm() + kSlack);
     disc.height = std::max(disc.height, std::abs(offset.dot(disc.normal)) + kSlack);
   }

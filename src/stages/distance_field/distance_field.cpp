@@ -36,8 +36,9 @@ void insert_cut_cells(const SurfaceCells& surface, NodeMasks& cells) {
 }
 
 void insert_cells_of(const std::vector<Vec3f>& positions, double dx, NodeMasks& cells) {
+  const double per_meter = 1.0 / dx;
   for (const Vec3f& position : positions) {
-    const Vec3d lattice = position.cast<double>() / dx;
+    const Vec3d lattice = position.cast<double>() * per_meter;
     if (has_cell(lattice)) cells.insert(cell_of(lattice));
   }
 }

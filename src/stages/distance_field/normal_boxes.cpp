@@ -1,33 +1,31 @@
 #include "normal_boxes.h"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+
+#include "triangle_shape.h"
 
 namespace particle_surface_tracker {
 
 namespace {
 
-/// Smallest sine of the angle between two sides of a triangle whose normal means something.
-constexpr float kSmallestSine = 1e-4f;
-
-Quad unit_normal(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
-  const Quad a = load_quad(vertices[triangle[0]]);
-  const Quad e1 = load_quad(vertices[triangle[1]]) - a;
-  const Quad e2 = load_quad(vertices[triangle[2]]) - a;
-  const Quad normal = cross(e1, e2);
-  const float squared = dot(normal, normal);
-  if (!(squared > kSmallestSine * kSmallestSine * dot(e1, e1) * dot(e2, e2))) return Quad{};
-  return normal / std::sqrt(squared);
-}
+/// Triangles whose normals are made at a time: they stay in the innermost cache.
+constexpr std::uint32_t kChunk = 256;
 
 }  // namespace
 
-NormalBoxes::NormalBoxes(const SurfaceTriangulation& surface)
-    : normals_(surface.triangles.size()), boxes_(surface.vertices.size()) {
-  for (std::size_t t = 0; t < normals_.size(); ++t) {
-    const Quad normal = unit_normal(surface.vertices, surface.triangles[t]);
-    normals_[t] = normal;
-    if (is_zero(normal)) continue;
-    for (const std::uint32_t vertex : surface.triangles[t]) boxes_[vertex].extend({normal, normal});
+NormalBoxes::NormalBoxes(const SurfaceTriangulation& surface) : boxes_(surface.vertices.size()) {
+  const TriangleKernel& kernel = active_triangle_kernel();
+  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
+  std::array<Quad, kChunk + TriangleKernel::lanes> normals;
+  for (std::uint32_t begin = 0; begin < count; begin += kChunk) {
+    const std::uint32_t end = std::min(begin + kChunk, count);
+    kernel.make_normals({&surface, begin, end, 1.0, {}}, normals.data());
+    for (std::uint32_t t = begin; t < end; ++t) {
+      const Quad& normal = normals[t - begin];
+      if (is_zero(normal)) continue;
+      for (const std::uint32_t vertex : surface.triangles[t]) boxes_[vertex].extend({normal, normal});
+    }
   }
 }
 

@@ -19,19 +19,15 @@ struct NormalBox {
   }
 };
 
-/// Normals of the triangles, and the box that holds those around each vertex.
+/// The box that holds the normals of the triangles around each vertex.
 class NormalBoxes {
  public:
   explicit NormalBoxes(const SurfaceTriangulation& surface);
-
-  /// Unit normal of a triangle, outward; zero if the triangle is a segment or a point.
-  const Quad& normal(std::uint32_t triangle) const { return normals_[triangle]; }
 
   /// What the normals of the triangles around a vertex are within.
   const NormalBox& around(std::uint32_t vertex) const { return boxes_[vertex]; }
 
  private:
-  std::vector<Quad> normals_;
   std::vector<NormalBox> boxes_;
 };
 

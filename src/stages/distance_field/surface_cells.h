@@ -9,8 +9,12 @@
 #include "normal_boxes.h"
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "stages/nodes/leaf_index.h"
+#include "triangle_shape.h"
 
 namespace particle_surface_tracker {
+
+/// Triangles in one cut cell.
+constexpr int kMostCellTriangles = 12;
 
 /// The cut cells of an isosurface, ready for questions about distances.
 class SurfaceCells {
@@ -29,6 +33,11 @@ class SurfaceCells {
 
   /// Number of the leaf with that origin, or LeafIndex::none.
   std::uint32_t find(const openvdb::Coord& origin) const { return index_.find(origin); }
+
+  TriangleRange triangles_of(const Leaf& leaf) const {
+    const SurfaceTriangulation& mesh = surface_.triangulation;
+    return {&mesh, mesh.cells[leaf.begin].first_triangle, mesh.cells[leaf.end].first_triangle, per_meter_, leaf.origin};
+  }
 
   /// A vertex of the triangulation relative to a node, in cells.
   Quad relative(std::uint32_t vertex, const openvdb::Coord& node) const {

@@ -1,10 +1,12 @@
 #include "cell_prediction.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
+
+#include "fine_cells.h"
+#include "halved_cells.h"
+#include "node_requester.h"
 
 namespace particle_surface_tracker::implicit {
 
@@ -13,10 +15,6 @@ namespace {
 /// Corner n of a cell is one up in x, y, z where bit 2, 1, 0 of n is set.
 LatticeCoord corner(const LatticeCoord& cell, int n) {
   return {cell[0] + ((n >> 2) & 1), cell[1] + ((n >> 1) & 1), cell[2] + (n & 1)};
-}
-
-LatticeCoord block_of(const LatticeCoord& node) {
-  return {node[0] >> 3, node[1] >> 3, node[2] >> 3};
 }
 
 int place_in_block(const LatticeCoord& node) {
@@ -32,128 +30,6 @@ LatticeCoord first_multiples(const LatticeCoord& block, int ratio) {
   }
   return first;
 }
-
-/// Requests nodes of the fine lattice, remembering the blocks around one place.
-class Requester {
- public:
-  Requester(NodeLattice& lattice, int width) : lattice_(lattice), width_(width) {}
-
-  /// Nodes requested next lie in the blocks origin .. origin + width - 1.
-  void move_to(const LatticeCoord& origin) {
-    origin_ = origin;
-    blocks_.assign(static_cast<std::size_t>(width_) * width_ * width_, kUnknown);
-  }
-
-  /// Requests the nodes node + (0, 0, k) for the bits k of a row.
-  void request_row(LatticeCoord node, std::uint32_t row) {
-    while (row != 0) {
-      const int first = node[2] & 7;
-      NodeBlock& block = lattice_.blocks()[block_at(node)];
-      const std::uint64_t here = (std::uint64_t{row} << first) & 0xFF;
-      block.requested[node[0] & 7] |= here << (8 * (node[1] & 7));
-      row >>= 8 - first;
-      node[2] += 8 - first;
-    }
-  }
-
-  /// Requests all nodes within `reach` along every axis, at most 4 · (width - 2).
-  void request_cube(const LatticeCoord& middle, int reach) {
-    move_to(block_of({middle[0] - reach, middle[1] - reach, middle[2] - reach}));
-    for (int i = -reach; i <= reach; ++i) {
-      for (int j = -reach; j <= reach; ++j) {
-        const LatticeCoord first = {middle[0] + i, middle[1] + j, middle[2] - reach};
-        for (int k = 0; k <= 2 * reach; ++k) request_row({first[0], first[1], first[2] + k}, 1);
-      }
-    }
-  }
-
- private:
-  static constexpr std::uint32_t kUnknown = ~std::uint32_t{0};
-
-  std::uint32_t block_at(const LatticeCoord& node) {
-    const LatticeCoord coord = block_of(node);
-    std::uint32_t& block =
-        blocks_[((coord[0] - origin_[0]) * width_ + coord[1] - origin_[1]) * width_ + coord[2] - origin_[2]];
-    if (block == kUnknown) block = lattice_.touch(coord);
-    return block;
-  }
-
-  NodeLattice& lattice_;
-  int width_;
-  LatticeCoord origin_ = {};
-  std::vector<std::uint32_t> blocks_;
-};
-
-/// The fine nodes of one coarse cell, as rows along z: bit k of row (i, j) stands for node (i, j, k).
-/// \tparam Ratio an integer, or the type of a constant one: the loops are then unrolled.
-template <typename Ratio>
-class FineCells {
- public:
-  /// \param ratio at most kLargestRatio.
-  /// \param margin how far the interpolation may be off [m].
-  FineCells(Ratio ratio, float margin) : ratio_(ratio), margin_(margin) {}
-
-  /// On which sides of the surface the nodes may be, by trilinear interpolation of the values at the corners.
-  void interpolate(const std::array<float, 8>& v) {
-    const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
-    const float step = 1.0f / static_cast<float>(ratio_);
-    int row = 0;
-    for (int i = 0; i < width(); ++i) {
-      const float t = static_cast<float>(i) * step;
-      const float v00 = mix(v[0], v[4], t);
-      const float v01 = mix(v[1], v[5], t);
-      const float v10 = mix(v[2], v[6], t);
-      const float v11 = mix(v[3], v[7], t);
-      for (int j = 0; j < width(); ++j, ++row) {
-        const float v0 = mix(v00, v10, static_cast<float>(j) * step);
-        const float v1 = mix(v01, v11, static_cast<float>(j) * step);
-        inside_[row] = 0;
-        outside_[row] = 0;
-        for (int k = 0; k < width(); ++k) {
-          const float value = mix(v0, v1, static_cast<float>(k) * step);
-          inside_[row] |= static_cast<std::uint32_t>(value < margin_) << k;
-          outside_[row] |= static_cast<std::uint32_t>(value >= -margin_) << k;
-        }
-      }
-    }
-  }
-
-  /// Requests the corners of the fine cells that may have corners on both sides.
-  void request_mixed(const LatticeCoord& coarse_cell, Requester& requester) {
-    const LatticeCoord first = {coarse_cell[0] * ratio_, coarse_cell[1] * ratio_, coarse_cell[2] * ratio_};
-    spread_to_cells(inside_);
-    spread_to_cells(outside_);
-    for (int i = 0; i < width(); ++i) {
-      for (int j = 0; j < width(); ++j) {
-        std::uint32_t cells = 0;
-        for (int x = std::max(i - 1, 0); x <= std::min(i, ratio_ - 1); ++x) {
-          for (int y = std::max(j - 1, 0); y <= std::min(j, ratio_ - 1); ++y) {
-            cells |= inside_[x * width() + y] & outside_[x * width() + y];
-          }
-        }
-        requester.request_row({first[0] + i, first[1] + j, first[2]}, cells | (cells << 1));
-      }
-    }
-  }
-
- private:
-  using Rows = std::array<std::uint32_t, (kLargestRatio + 1) * (kLargestRatio + 1)>;
-
-  /// From marks of nodes to marks of the cells with any marked corner; the last row of each layer stays unused.
-  void spread_to_cells(Rows& rows) const {
-    const std::uint32_t all_cells = (std::uint32_t{1} << ratio_) - 1;
-    for (int n = 0; n < width() * width(); ++n) rows[n] = (rows[n] | (rows[n] >> 1)) & all_cells;
-    for (int n = 0; n + 1 < width() * width(); ++n) rows[n] |= rows[n + 1];
-    for (int n = 0; n < ratio_ * width(); ++n) rows[n] |= rows[n + width()];
-  }
-
-  int width() const { return ratio_ + 1; }
-
-  Ratio ratio_;
-  float margin_;
-  Rows inside_;
-  Rows outside_;
-};
 
 /// Signs of the coarse nodes, remembering the block that was looked at last.
 class SignReader {
@@ -186,11 +62,10 @@ class SignReader {
   bool is_valid_ = false;
 };
 
-/// request_predicted_cells() for a ratio that may be a constant.
-template <typename Ratio>
-void request_cells(const NodeLattice& coarse, Ratio ratio, double margin, NodeLattice& fine) {
-  Requester requester(fine, ratio + 1);
-  FineCells<Ratio> cells(ratio, static_cast<float>(margin));
+/// Requests what `Cells` (FineCells or HalvedCells) predicts in the mixed coarse cells.
+template <typename Cells>
+void request_cells(const NodeLattice& coarse, int ratio, Cells cells, NodeLattice& fine) {
+  NodeRequester requester(fine, ratio + 1);
   for (std::uint32_t index = 0; index < coarse.blocks().size(); ++index) {
     const NodeMask mixed = coarse.mixed_cells(index);
     if (!any(mixed)) continue;
@@ -219,16 +94,16 @@ void request_cells(const NodeLattice& coarse, Ratio ratio, double margin, NodeLa
 
 void request_predicted_cells(const NodeLattice& coarse, int ratio, double margin, NodeLattice& fine) {
   if (ratio == 2) {
-    request_cells(coarse, std::integral_constant<int, 2>{}, margin, fine);
+    request_cells(coarse, ratio, HalvedCells(static_cast<float>(margin)), fine);
   } else {
-    request_cells(coarse, ratio, margin, fine);
+    request_cells(coarse, ratio, FineCells(ratio, static_cast<float>(margin)), fine);
   }
 }
 
 void request_around_stray_particles(const ParticleGrid& particles, const NodeLattice& coarse, int ratio, int reach,
                                     NodeLattice& fine) {
   SignReader signs(coarse);
-  Requester requester(fine, reach / 4 + 2);
+  NodeRequester requester(fine, reach / 4 + 2);
   const double fine_cell = particles.cell_size() / ratio;
   for (const ParticleGrid::Tile& tile : particles.tiles()) {
     const NodeBlock* block = coarse.find(tile.coord);
@@ -249,7 +124,7 @@ void request_around_stray_particles(const ParticleGrid& particles, const NodeLat
 
 void request_around_shallow_nodes(const NodeLattice& coarse, int ratio, double depth, NodeLattice& fine) {
   const std::vector<NodeMask> explained = coarse.corners_of_mixed_cells();
-  Requester requester(fine, ratio / 4 + 2);
+  NodeRequester requester(fine, ratio / 4 + 2);
   for (std::uint32_t index = 0; index < explained.size(); ++index) {
     const NodeBlock& block = coarse.blocks()[index];
     for (int x = 0; x < 8; ++x) {

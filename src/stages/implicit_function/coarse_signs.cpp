@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
+
+#include <emmintrin.h>
 
 namespace particle_surface_tracker::implicit {
 
@@ -14,13 +17,15 @@ namespace {
 constexpr double kFullWindow = 0.85;
 constexpr double kFullLayer = 0.5;
 
-/// Particles per cell in a block of 8 × 8 × 8 cells and one layer of cells around it.
-struct Counts {
-  std::array<std::uint32_t, 1000> cells;
-  std::uint32_t& at(int x, int y, int z) { return cells[100 * x + 10 * y + z]; }
-};
+/// Particles that are counted in a cell: more than ever matter, and sums over 3 × 3 × 3 cells are still small numbers.
+constexpr std::uint32_t kMostCounted = 1000;
 
-using Sums = std::array<std::uint32_t, 1000>;
+/// One number for each cell of a block of 8 × 8 × 8 and of one layer of cells around it. Eight fit into a register.
+using CellNumbers = std::array<std::int16_t, 1000>;
+
+constexpr int cell_place(int x, int y, int z) {
+  return 100 * (x + 1) + 10 * (y + 1) + z + 1;
+}
 
 /// Tiles of the particle grid and all others with a cell next to one that holds particles, in a fixed order.
 std::vector<LatticeCoord> tiles_around_particles(const ParticleGrid& particles) {
@@ -47,8 +52,8 @@ std::vector<LatticeCoord> tiles_around_particles(const ParticleGrid& particles) 
   return around;
 }
 
-Counts count_particles(const ParticleGrid& particles, const LatticeCoord& coord) {
-  Counts counts = {};
+CellNumbers count_particles(const ParticleGrid& particles, const LatticeCoord& coord) {
+  CellNumbers counts = {};
   for (int n = 0; n < 27; ++n) {
     const LatticeCoord offset = {n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
     const ParticleGrid::Tile* tile =
@@ -59,9 +64,9 @@ Counts count_particles(const ParticleGrid& particles, const LatticeCoord& coord)
     for (int x = from(0); x <= to(0); ++x) {
       for (int y = from(1); y <= to(1); ++y) {
         for (int z = from(2); z <= to(2); ++z) {
-          const int cell = 64 * x + 8 * y + z;
-          counts.at(8 * offset[0] + x + 1, 8 * offset[1] + y + 1, 8 * offset[2] + z + 1) =
-              tile->begin[cell + 1] - tile->begin[cell];
+          const std::uint32_t* begin = &tile->begin[64 * x + 8 * y + z];
+          counts[cell_place(8 * offset[0] + x, 8 * offset[1] + y, 8 * offset[2] + z)] =
+              static_cast<std::int16_t>(std::min(begin[1] - begin[0], kMostCounted));
         }
       }
     }
@@ -70,28 +75,54 @@ Counts count_particles(const ParticleGrid& particles, const LatticeCoord& coord)
 }
 
 /// Sums over three entries in a row, centred; entries at the ends of the array are not used by anybody.
-Sums sum_three(const Sums& values, int stride) {
-  Sums sums = {};
-  for (int n = stride; n < 1000 - stride; ++n) sums[n] = values[n - stride] + values[n] + values[n + stride];
+CellNumbers sum_three(const CellNumbers& values, int stride) {
+  CellNumbers sums = {};
+  for (int n = stride; n < 1000 - stride; ++n) {
+    sums[n] = static_cast<std::int16_t>(values[n - stride] + values[n] + values[n + stride]);
+  }
   return sums;
 }
 
+/// The least of two entries on either side.
+std::int16_t least_beside(const CellNumbers& values, int n, int stride) {
+  return std::min(values[n - stride], values[n + stride]);
+}
+
+/// How many of so many cells hold what liquid at rest does.
+std::int16_t full_count(double cells, double full_cell) {
+  return static_cast<std::int16_t>(std::min(std::ceil(cells * full_cell), 27.0 * kMostCounted));
+}
+
+/// Bit z is set where entry z of a row of eight is not 0 but −1.
+std::uint64_t bits_of_row(const std::int16_t* row) {
+  __m128i eight;
+  std::memcpy(&eight, row, sizeof(eight));
+  return static_cast<std::uint64_t>(_mm_movemask_epi8(_mm_packs_epi16(eight, _mm_setzero_si128())));
+}
+
 void guess_block(const ParticleGrid& particles, double full_cell, NodeBlock& block) {
-  const Sums cells = count_particles(particles, block.coord).cells;
-  const Sums rows = sum_three(cells, 1);
-  const Sums layers_x = sum_three(rows, 10);
-  const Sums layers_y = sum_three(rows, 100);
-  const Sums layers_z = sum_three(sum_three(cells, 10), 100);
-  const Sums windows = sum_three(layers_x, 100);
-  const auto full_window = static_cast<std::uint32_t>(std::ceil(27.0 * kFullWindow * full_cell));
-  const auto full_layer = static_cast<std::uint32_t>(std::ceil(9.0 * kFullLayer * full_cell));
-  for (int bit = 0; bit < 512; ++bit) {
-    const int n = 100 * ((bit >> 6) + 1) + 10 * (((bit >> 3) & 7) + 1) + (bit & 7) + 1;
-    if (windows[n] == 0) continue;
-    const std::uint32_t thinnest = std::min(
-        {layers_x[n - 100], layers_x[n + 100], layers_y[n - 10], layers_y[n + 10], layers_z[n - 1], layers_z[n + 1]});
-    const bool is_full = windows[n] >= full_window && thinnest >= full_layer;
-    (is_full ? block.negative : block.requested)[bit >> 6] |= std::uint64_t{1} << (bit & 63);
+  const CellNumbers cells = count_particles(particles, block.coord);
+  const CellNumbers rows = sum_three(cells, 1);
+  const CellNumbers layers_x = sum_three(rows, 10);
+  const CellNumbers layers_y = sum_three(rows, 100);
+  const CellNumbers layers_z = sum_three(sum_three(cells, 10), 100);
+  const CellNumbers windows = sum_three(layers_x, 100);
+  const std::int16_t full_window = full_count(27.0 * kFullWindow, full_cell);
+  const std::int16_t full_layer = full_count(9.0 * kFullLayer, full_cell);
+  CellNumbers is_full;
+  CellNumbers is_requested;
+  for (int n = cell_place(0, 0, 0); n <= cell_place(7, 7, 7); ++n) {
+    const std::int16_t thinnest =
+        std::min(std::min(least_beside(layers_x, n, 100), least_beside(layers_y, n, 10)), least_beside(layers_z, n, 1));
+    const bool full = (windows[n] >= full_window) & (thinnest >= full_layer);
+    is_full[n] = static_cast<std::int16_t>(-static_cast<int>(full));
+    is_requested[n] = static_cast<std::int16_t>(-static_cast<int>((windows[n] > 0) & !full));
+  }
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y) {
+      block.negative[x] |= bits_of_row(&is_full[cell_place(x, y, 0)]) << (8 * y);
+      block.requested[x] |= bits_of_row(&is_requested[cell_place(x, y, 0)]) << (8 * y);
+    }
   }
 }
 

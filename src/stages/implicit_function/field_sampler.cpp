@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -78,6 +79,7 @@ struct NodeBox {
     }
   }
 
+  /// \param step of the lattice [R].
   Box times(double step) const {
     Box box;
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,6 +87,20 @@ struct NodeBox {
       box.upper[axis] = static_cast<float>(upper[axis] * step);
     }
     return box;
+  }
+
+  /// Holds all that is nearer than R to the nodes. Not much more if they are few: and who is in a ball is told faster
+  /// than who is near a box.
+  Ball ball_around(double step) const {
+    Ball ball;
+    double squared_diagonal = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double width = (upper[axis] - lower[axis]) * step;
+      ball.center[axis] = static_cast<float>(lower[axis] * step + 0.5 * width);
+      squared_diagonal += width * width;
+    }
+    ball.radius = static_cast<float>(1.0 + 0.5 * std::sqrt(squared_diagonal));
+    return ball;
   }
 };
 
@@ -105,6 +121,7 @@ Cube make_cube(const LocalCube& local, double step) {
 struct FieldSampler::Scratch {
   WorldPoints world;
   Points near_unit;
+  Points near_block;
   Points near_part;
   Points near_cube;
   std::vector<LocalCube> cubes;  ///< Part after part.
@@ -114,7 +131,20 @@ struct FieldSampler::Scratch {
   std::size_t pending = 0;  ///< Nodes listed in `targets` so far, modulo its size.
 
   void list_requested_cubes(const NodeBlock& block, std::uint32_t index, const LatticeCoord& origin);
+
+  /// End of the parts that are in one block with a part.
+  std::size_t end_of_block(std::size_t part) const;
+
+  NodeBox box_around_parts(std::size_t first, std::size_t last) const {
+    return box_around(cubes, parts[first].begin, parts[last - 1].end);
+  }
 };
+
+std::size_t FieldSampler::Scratch::end_of_block(std::size_t part) const {
+  std::size_t end = part + 1;
+  while (end < parts.size() && parts[end].block == parts[part].block) ++end;
+  return end;
+}
 
 void FieldSampler::Scratch::list_requested_cubes(const NodeBlock& block, std::uint32_t index,
                                                  const LatticeCoord& origin) {
@@ -182,11 +212,17 @@ void FieldSampler::evaluate_unit(NodeLattice& lattice, const LatticeCoord& origi
   const Box box = box_around(scratch.cubes, 0, scratch.cubes.size()).times(step);
   scratch.near_unit.reserve(list_particles_near(particles_, frame, box, scratch.world));
   kernel_.localize(scratch.world, frame, box, scratch.near_unit);
-  for (const Part& part : scratch.parts) {
-    kernel_.select(scratch.near_unit, box_around(scratch.cubes, part.begin, part.end).times(step), scratch.near_part);
-    for (std::size_t n = part.begin; n < part.end; ++n) {
-      kernel_.select(scratch.near_part, box_around(scratch.cubes, n, n + 1).times(step), scratch.near_cube);
-      evaluate_cube(lattice, part.block, make_cube(scratch.cubes[n], step), scratch.cubes[n].place, scratch);
+  for (std::size_t first = 0, last; first < scratch.parts.size(); first = last) {
+    last = scratch.end_of_block(first);
+    kernel_.select_near(scratch.near_unit, scratch.box_around_parts(first, last).times(step), scratch.near_block);
+    for (std::size_t p = first; p < last; ++p) {
+      const Part& part = scratch.parts[p];
+      kernel_.select_in(scratch.near_block, box_around(scratch.cubes, part.begin, part.end).ball_around(step),
+                        scratch.near_part);
+      for (std::size_t n = part.begin; n < part.end; ++n) {
+        kernel_.select_in(scratch.near_part, box_around(scratch.cubes, n, n + 1).ball_around(step), scratch.near_cube);
+        evaluate_cube(lattice, part.block, make_cube(scratch.cubes[n], step), scratch.cubes[n].place, scratch);
+      }
     }
   }
   if (scratch.pending % kBatchSize != 0) finish_batch(lattice, scratch.pending, scratch);

@@ -6,6 +6,7 @@
 
 #include <immintrin.h>
 
+#include "core/exact_multiply_add.h"
 #include "core/per_instruction_set.h"
 
 namespace particle_surface_tracker::implicit {
@@ -43,9 +44,9 @@ void Points::reserve(std::size_t count) {
 
 const Kernel& active_kernel() {
   static constexpr PerInstructionSet<Kernel> kernels = {
-      {baseline::localize, baseline::select, baseline::accumulate, baseline::finish},
-      {avx2::localize, avx2::select, avx2::accumulate, avx2::finish},
-      {avx512::localize, avx512::select, avx512::accumulate, avx512::finish}};
+      {baseline::localize, baseline::select_near, baseline::select_in, baseline::accumulate, baseline::finish},
+      {avx2::localize, avx2::select_near, avx2::select_in, avx2::accumulate, avx2::finish},
+      {avx512::localize, avx512::select_near, avx512::select_in, avx512::accumulate, avx512::finish}};
   return kernels.active();
 }
 

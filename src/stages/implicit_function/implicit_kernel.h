@@ -40,6 +40,12 @@ struct Box {
   float upper[3];
 };
 
+/// A ball [R].
+struct Ball {
+  float center[3];
+  float radius;
+};
+
 /// The corners of a cube of 2 × 2 × 2 nodes. They share most of their particles and of their differences to them.
 struct Cube {
   float x[2];  ///< The two coordinates of the corners along x [R], and so on.
@@ -78,7 +84,10 @@ struct Kernel {
   void (*localize)(const WorldPoints& world, const Frame& frame, const Box& box, Points& kept);
 
   /// Keeps those of some padded points [R] that are nearer than R to a box, in their order, padded.
-  void (*select)(const Points& points, const Box& box, Points& kept);
+  void (*select_near)(const Points& points, const Box& box, Points& kept);
+
+  /// Keeps those of some padded points [R] that are in a ball, in their order, padded.
+  void (*select_in)(const Points& points, const Ball& ball, Points& kept);
 
   /// The sums of the requested corners of a cube, in the order of their bits, over padded points [R].
   void (*accumulate)(const Points& points, const Cube& cube, NodeSums* const* sums);

@@ -112,6 +112,7 @@ void CutCells::read_signs(CutLeaf& leaf) const {
 void CutCells::find_cuts(CutLeaf& leaf, std::uint8_t* patterns) const {
   const ForwardWords active = gather(leaf.neighbors, &CutLeaf::active);
   const ForwardWords inside = gather(leaf.neighbors, &CutLeaf::inside);
+  const std::array<LoopFilling, 256>& fillings = loop_fillings();
   SliceSigns lower(active, inside, 0);
   for (int x = 0; x < 8; ++x) {
     const SliceSigns upper(active, inside, x + 1);
@@ -123,7 +124,7 @@ void CutCells::find_cuts(CutLeaf& leaf, std::uint8_t* patterns) const {
     for_each_bit(leaf.cells[x], [&](int bit) {
       const std::uint8_t pattern = pattern_of(lower, upper, bit);
       patterns[64 * x + bit] = pattern;
-      leaf.triangle_count += loop_fillings()[pattern].triangle_count;
+      leaf.triangle_count += fillings[pattern].triangle_count;
       ++leaf.cell_count;
     });
     const std::uint64_t lacking = leaf.cells[x] & ~whole_cells(lower, upper);

@@ -7,6 +7,7 @@
 
 #include "cell_loops.h"
 #include "cut_cells.h"
+#include "edge_numbers.h"
 #include "loop_filling.h"
 
 namespace particle_surface_tracker {
@@ -69,7 +70,7 @@ class Triangulator {
  private:
   void place_vertices(std::size_t number);
   void fill_cells(std::size_t number);
-  std::uint32_t vertex_on(const CutLeaf& leaf, int cell_offset, int edge) const;
+  void number_edges(std::size_t number, EdgeNumbers& numbers) const;
 
   double dx_;
   CutCells cut_;
@@ -120,34 +121,43 @@ void Triangulator::place_vertices(std::size_t number) {
   }
 }
 
-std::uint32_t Triangulator::vertex_on(const CutLeaf& leaf, int cell_offset, int edge) const {
-  const CellEdge& e = cell_edges()[edge];
-  const NodePlace lower = corner_place(cell_offset, e.lower);
-  const std::uint32_t owner = leaf.neighbors[lower.neighbor];
-  const int x = lower.offset >> 6;
-  const std::uint64_t below = (std::uint64_t{1} << (lower.offset & 63)) - 1;
-  return begin_[owner].vertex + edges_before_[owner][e.axis][x] +
-         count_bits(cut_.leaves()[owner].edges[e.axis][x] & below);
+void Triangulator::number_edges(std::size_t number, EdgeNumbers& numbers) const {
+  const CutLeaf& leaf = cut_.leaves()[number];
+  for (int n = 0; n < 8; ++n) {
+    const std::uint32_t owner = leaf.neighbors[n];
+    if (owner == LeafIndex::none) continue;
+    // Of the leaves ahead only those nodes that are corners of cells of this one.
+    const std::uint64_t rows = (n & 2 ? 0xFFull : ~0ull) & (n & 4 ? kLowestZ : ~0ull);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int x = 0; x < (n & 1 ? 1 : 8); ++x) {
+        const std::uint64_t edges = cut_.leaves()[owner].edges[axis][x];
+        const std::uint32_t first = begin_[owner].vertex + edges_before_[owner][axis][x];
+        for_each_bit(edges & rows, [&](int bit) {
+          const std::uint64_t below = (std::uint64_t{1} << bit) - 1;
+          numbers.set(axis, 8 * (n & 1) + x, 8 * (n >> 1 & 1) + (bit >> 3), 8 * (n >> 2) + (bit & 7),
+                      first + count_bits(edges & below));
+        });
+      }
+    }
+  }
 }
 
 void Triangulator::fill_cells(std::size_t number) {
   const CutLeaf& leaf = cut_.leaves()[number];
   const std::uint8_t* patterns = cut_.patterns(number);
+  const std::array<LoopFilling, 256>& fillings = loop_fillings();
   CutCell* cell = surface_.cells.data() + begin_[number].cell;
   std::uint32_t triangle = begin_[number].triangle;
-  std::array<std::uint32_t, kCellEdges> vertex_on_edge;
+  EdgeNumbers numbers;
+  number_edges(number, numbers);
   for (int x = 0; x < 8; ++x) {
     for_each_bit(leaf.cells[x], [&](int bit) {
-      const int offset = 64 * x + bit;
       *cell++ = {leaf.leaf->origin().offsetBy(x, bit >> 3, bit & 7), triangle};
-      const CellLoops& loops = cell_loops()[patterns[offset]];
-      for (int p = 0; p < loops.begin[loops.count]; ++p) {
-        vertex_on_edge[loops.edge[p]] = vertex_on(leaf, offset, loops.edge[p]);
-      }
-      const LoopFilling& filling = loop_fillings()[patterns[offset]];
+      const int place = EdgeNumbers::cell_place(x, bit >> 3, bit & 7);
+      const LoopFilling& filling = fillings[patterns[64 * x + bit]];
       for (int t = 0; t < filling.triangle_count; ++t) {
         const auto& [a, b, c] = filling.triangles[t];
-        surface_.triangles[triangle++] = {vertex_on_edge[a], vertex_on_edge[b], vertex_on_edge[c]};
+        surface_.triangles[triangle++] = {numbers.at(place, a), numbers.at(place, b), numbers.at(place, c)};
       }
     });
   }
