@@ -17,9 +17,9 @@ struct CellTube {
   float first, last;  ///< Slices.
   float least[2];     ///< Along each of the other two, no node is below this,
   float most[2];      ///< nor above this;
-  float ratio[2][2];  ///< and in slice s it is between the smaller of low[k] + s · ratio[k]
-  float low[2][2];    ///< and the larger of high[k] + s · ratio[k].
-  float high[2][2];
+  Quad ratio;         ///< and in slice s it is between the smaller of low[k] + s · ratio[k]
+  Quad low;           ///< and the larger of high[k] + s · ratio[k], where k is 0 and 1 for the first of them,
+  Quad high;          ///< 2 and 3 for the second.
 };
 
 /// \param height distance from the isosurface up to which the nodes are wanted [cells].
