@@ -5,7 +5,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-# -ffp-contract=off: a processor with fused multiply-add must give the same bytes as one without.
+# -ffp-contract=off: multiplications and additions are fused where the kernels say so, and nowhere else, so that every
+# processor gives the same bytes.
 function(pst_compile_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
