@@ -3,14 +3,13 @@
 #include <openvdb/io/Stream.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
-#include <filesystem>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "file_bytes.h"
-#include "particle_surface_tracker/io/mesh_sequence.h"
+#include "sequence_folder.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -55,12 +54,11 @@ void write_vdb(const std::string& path, const ImplicitSurface& surface) {
 }
 
 VdbSequence::VdbSequence(std::string folder) : folder_(std::move(folder)) {
-  // Makes the folder, and tries whether it can be written.
-  MeshSequence(folder_, MeshFormat::kPly);
+  make_sequence_folder(folder_);
 }
 
 void VdbSequence::write(const ImplicitSurface& surface, std::uint64_t frame) const {
-  write_vdb((std::filesystem::path(folder_) / fmt::format("frame_{:06}.vdb", frame)).string(), surface);
+  write_vdb(frame_file(folder_, frame, "vdb"), surface);
 }
 
 }  // namespace particle_surface_tracker

@@ -17,7 +17,7 @@ namespace {
 }  // namespace
 
 RunOutputs::RunOutputs(const OfflineOptions& options, const OutputProgress* from) {
-  meshes_.emplace(options.out, options.format);
+  if (options.format) meshes_.emplace(options.out, *options.format);
   if (!options.surface.empty()) surfaces_.emplace(options.surface, MeshFormat::kPly);
   if (!options.vdb.empty()) fields_.emplace(options.vdb);
   if (!options.report.empty()) open_report(options, from);
@@ -51,7 +51,7 @@ void RunOutputs::open_bag(const OfflineOptions& options, const OutputProgress* f
 
 void RunOutputs::write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
                        const FrameReport& report) {
-  meshes_->write(handler.tracker().mesh(), frame);
+  if (meshes_) meshes_->write(handler.tracker().mesh(), frame);
   if (surfaces_) {
     const SurfaceTriangulation& surface = handler.tracker().implicit_surface()->triangulation;
     surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame);

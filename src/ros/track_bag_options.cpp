@@ -18,13 +18,14 @@ namespace {
 struct RawOptions {
   std::string mesh;
   std::string spacing;
+  std::string format = "ply";
   std::string config;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> checkpoint_every;
 };
 
-const std::map<std::string, MeshFormat> formats = {
-    {"ply", MeshFormat::kPly}, {"obj", MeshFormat::kObj}, {"none", MeshFormat::kNone}};
+const std::map<std::string, std::optional<MeshFormat>> formats = {
+    {"ply", MeshFormat::kPly}, {"obj", MeshFormat::kObj}, {"none", std::nullopt}};
 
 void add_inputs(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
   app.add_option("--bag", options.bag, "Bag with the particles: sensor_msgs/PointCloud2 with x y z [m] and id")
@@ -78,14 +79,14 @@ void add_check(CLI::App& app, OfflineOptions& options) {
                "self-intersecting triangles are reported");
 }
 
-void add_outputs(CLI::App& app, OfflineOptions& options) {
+void add_outputs(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
   app.add_option("--out", options.out, "Folder of the tracked meshes, frame_000000.ply and so on; made if missing")
       ->required()
       ->type_name("DIR");
-  app.add_option("--format", options.format, "Format of the meshes")
+  app.add_option("--format", raw.format, "Format of the meshes")
       ->type_name("ply|obj|none")
-      ->default_str("ply")
-      ->transform(CLI::Transformer(formats).description(""));
+      ->capture_default_str()
+      ->check(CLI::IsMember(formats).description(""));
   app.add_option("--surface", options.surface, "Folder for the implicit surface of every frame, as PLY")
       ->type_name("DIR");
   app.add_option("--vdb", options.vdb, "Folder for the implicit function phi of every frame, as OpenVDB level set")
@@ -131,6 +132,7 @@ double read_spacing(const std::string& text) {
 
 void resolve(const RawOptions& raw, OfflineOptions& options) {
   if (raw.mesh != "implicit") options.mesh = raw.mesh;
+  options.format = formats.at(raw.format);
   if (!raw.config.empty()) read_parameter_file(raw.config, options.parameters);
   for (const std::string& setting : raw.settings) apply_setting(setting, options.parameters);
   options.estimate_spacing = raw.spacing == "auto";
@@ -153,7 +155,7 @@ CommandLine read_command_line(int argc, const char* const* argv) {
   add_parameters(app, options, raw);
   add_checkpoints(app, options, raw);
   add_check(app, options);
-  add_outputs(app, options);
+  add_outputs(app, options, raw);
   app.footer(list_of_parameters);
   try {
     app.parse(argc, argv);

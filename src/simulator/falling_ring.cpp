@@ -12,7 +12,7 @@ namespace particle_surface_tracker::simulator {
 namespace {
 
 constexpr double kSmallestSpacing = 0.01;   // Some 340,000 particles [m].
-constexpr double kLargestSpacing = 0.1;     // Four layers in the tube [m].
+constexpr double kLargestSpacing = 0.075;   // Twice that is the gap between ball and floor [m].
 const Vec3d kRingCenter(-0.08, 0.0, 1.05);  // [m]
 constexpr double kTilt = -0.3;              // Around the y axis [rad].
 const Sphere kBall{{0.45, 0.0, 0.4}, 0.25};

@@ -18,7 +18,7 @@ SimulatorParameters falling_ring_parameters();
 
 /// The scaly ring, tilted above a ball onto which it falls: it drapes over the ball, splits, flows around it and
 /// merges behind it, and its hole closes.
-/// \param parameters with a spacing r from 0.01 to 0.1 m; the ring's tube is 0.4 m thick. The ball is added to the
+/// \param parameters with a spacing r from 0.01 to 0.075 m; the ring's tube is 0.4 m thick. The ball is added to the
 /// obstacles.
 /// \throw ParameterError if r is out of this range.
 Scene falling_ring(SimulatorParameters parameters);

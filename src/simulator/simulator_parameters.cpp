@@ -27,8 +27,8 @@ SimulatorParameter real(double SimulatorParameters::*field, std::string name, st
 void check_gap(std::size_t obstacle, const char* other, double gap, double spacing) {
   // Negated, so that a NaN fails it too.
   if (gap >= kSmallestGap * spacing) return;
-  throw ParameterError(fmt::format("obstacles[{}] leaves a gap of {} m to {}; it must be at least 2 r = {} m", obstacle,
-                                   gap, other, kSmallestGap * spacing));
+  throw ParameterError(fmt::format("obstacles[{}] leaves a gap of {:.6g} m to {}; it must be at least 2 r = {:.6g} m",
+                                   obstacle, gap, other, kSmallestGap * spacing));
 }
 
 void check_obstacle(const SimulatorParameters& parameters, std::size_t index) {

@@ -48,12 +48,6 @@ TEST_F(MeshSequences, TryingTheFolderLeavesNothingBehind) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
-TEST_F(MeshSequences, NoneTouchesNothing) {
-  const MeshSequence none(folder_ / "new", MeshFormat::kNone);
-  none.write(mesh_, 0);
-  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
-}
-
 TEST_F(MeshSequences, FolderThatCannotBeWrittenIsAnErrorAtOnce) {
   folder_.write("file", "x");
   EXPECT_THROW(MeshSequence(folder_ / "file", MeshFormat::kPly), OutputError);

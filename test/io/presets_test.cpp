@@ -1,7 +1,8 @@
 // The parameter files in config/.
 
-#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -39,6 +40,15 @@ TEST(Presets, EveryFileIsValid) {
     EXPECT_NO_THROW(check_parameters(parameters_of(entry.path()))) << entry.path();
   }
   EXPECT_EQ(names, (std::set<std::string>{"default", "preview", "splash", "viscous"}));
+}
+
+TEST(Presets, TheDefaultFileHoldsEveryParameter) {
+  std::ifstream file(PST_CONFIG "/default.yaml");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.name == "particle_spacing") continue;
+    EXPECT_NE(text.find("\n" + info.name + ": "), std::string::npos) << info.name;
+  }
 }
 
 TEST(Presets, ChangeWhatTheySay) {

@@ -103,6 +103,26 @@ TEST(ReportWriter, LineHoldsEverythingInOrder) {
   EXPECT_EQ(json["warnings"][0], "a \"quoted\"\nwarning");
 }
 
+// The first cell of a row names one field or several.
+TEST(ReportWriter, ThePageTellsEveryField) {
+  std::ifstream page(PST_REPORT_PAGE);
+  std::string cells;
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("| `", 0) == 0) cells += line.substr(0, line.find('|', 1));
+  }
+  FrameReport report = example();
+  report.self_intersecting_triangles = 0.25;
+  const Json json = Json::parse(report_line(report));
+  const auto expect_told = [&cells](const Json& object) {
+    for (const auto& item : object.items()) {
+      EXPECT_NE(cells.find('`' + item.key() + '`'), std::string::npos) << item.key() << " is not in " PST_REPORT_PAGE;
+    }
+  };
+  expect_told(json);
+  expect_told(json["topology"]);
+  expect_told(json["upkeep"]);
+}
+
 TEST(ReportWriter, StampIsExactToTheNanosecond) {
   FrameReport report = example();
   EXPECT_EQ(report_line(report).rfind("{\"frame\":12,\"stamp\":1709210000.123456789,\"particles\"", 0), 0u);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The documentation is in step with the files that it quotes and names."""
+import os
 import re
 import unittest
 
@@ -37,6 +38,15 @@ class Documentation(unittest.TestCase):
         readme = (PROJECT / "README.md").read_text(encoding="utf-8")
         for page in PAGES[1:]:
             self.assertIn(f"(docs/{page.name}", readme)
+
+    def test_programs_can_be_called_by_their_names(self):
+        count = 0
+        for folder in ("scripts", "bench", "examples/own_simulator"):
+            for path in (PROJECT / folder).iterdir():
+                if path.is_file() and path.read_bytes().startswith(b"#!"):
+                    self.assertTrue(os.access(path, os.X_OK), f"{path}: chmod +x")
+                    count += 1
+        self.assertGreater(count, 5)
 
     def test_examples_are_quoted_as_they_are(self):
         page = (PROJECT / "docs/own_simulator.md").read_text(encoding="utf-8")

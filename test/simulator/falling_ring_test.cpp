@@ -58,8 +58,12 @@ TEST(FallingRing, DrapesOverItsBall) {
   EXPECT_GT(beyond, 100);
 }
 
+TEST(FallingRing, TheLargestSpacingCanBeSimulated) {
+  EXPECT_NO_THROW(check_simulator_parameters(falling_ring(with_spacing(0.075)).parameters));
+}
+
 TEST(FallingRing, OtherSpacingsAreErrors) {
-  for (const double spacing : {0.0099, 0.11, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double spacing : {0.0099, 0.076, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(falling_ring(with_spacing(spacing)), ParameterError) << spacing;
   }
 }

@@ -7,13 +7,12 @@
 
 namespace particle_surface_tracker {
 
-enum class MeshFormat { kPly, kObj, kVtp, kGlb, kNone };
+enum class MeshFormat { kPly, kObj, kVtp, kGlb };
 
 /// Writes the meshes of a sequence into one folder, one file per frame: `frame_000042.ply`.
 class MeshSequence {
  public:
-  /// Makes the folder, and its parents, where they are missing, and tries whether files can be written there. With
-  /// kNone nothing is touched and nothing is ever written.
+  /// Makes the folder, and its parents, where they are missing, and tries whether files can be written there.
   /// \throw OutputError if that fails.
   MeshSequence(std::string folder, MeshFormat format);
 

@@ -26,10 +26,10 @@ struct OfflineOptions {
   bool pipeline = false;               ///< Make the implicit surface of a frame while the one before is tracked.
   bool check = false;                  ///< Check the mesh of every frame.
 
-  std::string out;  ///< Folder of the mesh sequence.
-  MeshFormat format = MeshFormat::kPly;
-  std::string surface;  ///< Folder for the implicit surfaces.
-  std::string vdb;      ///< Folder for φ.
+  std::string out;                                      ///< Folder of the mesh sequence.
+  std::optional<MeshFormat> format = MeshFormat::kPly;  ///< None: no mesh files, and the folder is not touched.
+  std::string surface;                                  ///< Folder for the implicit surfaces.
+  std::string vdb;                                      ///< Folder for φ.
   std::string out_bag;
   std::string report;
 
