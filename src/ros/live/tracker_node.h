@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include <particle_surface_tracker/CheckpointFile.h>
 #include <particle_surface_tracker/SaveMesh.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -33,8 +34,13 @@ class TrackerNode {
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool save_mesh(SaveMesh::Request& request, SaveMesh::Response& response);
 
+  bool save_checkpoint(CheckpointFile::Request& request, CheckpointFile::Response& response);
+  bool load_checkpoint(CheckpointFile::Request& request, CheckpointFile::Response& response);
+  std::string checkpoint_path(const std::string& name) const;
+
   std::string name_;
   std::string save_folder_;
+  std::string checkpoint_;
   NodeOutputs outputs_;
   NodeDiagnostics diagnostics_;
   TrackingWorker worker_;
@@ -42,6 +48,8 @@ class TrackerNode {
   ros::ServiceServer reset_service_;
   ros::ServiceServer pause_service_;
   ros::ServiceServer save_mesh_service_;
+  ros::ServiceServer save_checkpoint_service_;
+  ros::ServiceServer load_checkpoint_service_;
   std::unique_ptr<InitialMeshTopic> initial_mesh_;
   ros::Subscriber particles_;
 };

@@ -23,8 +23,12 @@ TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDi
       queue_(options.queue_size, options.queue_policy),
       admission_(options.queue_policy, log_),
       handler_(std::move(options.handler)),
+      keeper_(options.checkpoint, log_),
       awaits_mesh_(options.mesh_from_topic) {
-  update_waiting();
+  queue_.push(FrameQueue::Command([this] {
+    keeper_.resume([this](const Checkpoint& checkpoint) { take_over(checkpoint); });
+    update_waiting();
+  }));
   thread_ = std::thread([this] { run(); });
 }
 
@@ -53,6 +57,7 @@ void TrackingWorker::reset() {
     admission_.reset();
     diagnostics_.note_reset();
     forget_run();
+    update_waiting();
   }));
 }
 
@@ -105,6 +110,7 @@ void TrackingWorker::run() {
       outputs_.publish_due_markers();
     }
   }
+  keeper_.finish([this] { return state(); });
 }
 
 void TrackingWorker::process(const ReceivedFrame& frame) {
@@ -113,7 +119,9 @@ void TrackingWorker::process(const ReceivedFrame& frame) {
   if (verdict == FrameAdmission::Verdict::kBeginsRun) forget_run();
   if (verdict != FrameAdmission::Verdict::kRefused) try_to_track(frame, status);
   admission_.conclude(frame, status);
+  const bool is_tracked = status.state == TrackerStatus::STARTED || status.state == TrackerStatus::TRACKED;
   publish(frame, std::move(status));
+  if (is_tracked) keeper_.note_frame([this] { return state(); });
 }
 
 void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& status) {
@@ -134,6 +142,8 @@ void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& sta
 
 void TrackingWorker::track(const ReceivedFrame& frame, TrackerStatus& status) {
   const bool is_first = !handler_.started();
+  if (is_first && awaits_mesh_)
+    throw TrackingError("the mesh to begin with has not come on the topic initial_mesh yet");
   const std::uint32_t first_new_id = is_first ? 0 : handler_.tracker().mesh().next_id();
   const FrameReport report = handler_.handle(*frame.cloud, status.frame);
   status.state = is_first ? TrackerStatus::STARTED : TrackerStatus::TRACKED;
@@ -188,11 +198,12 @@ void TrackingWorker::forget_run() {
   handler_.reset();
   outputs_.clear();
   last_mesh_.reset();
+  keeper_.forget();
 }
 
 std::string TrackingWorker::waiting_for() const {
   if (paused_) return "paused: frames wait until ~pause is called with false";
-  if (awaits_mesh_) return "frames wait for the mesh to begin with, on the topic initial_mesh";
+  if (awaits_mesh_ && !handler_.started()) return "frames wait for the mesh to begin with, on the topic initial_mesh";
   return "";
 }
 

@@ -12,6 +12,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "particle_surface_tracker/ros/frame_handler.h"
+#include "ros/live/checkpoint_keeper.h"
 #include "ros/live/frame_admission.h"
 #include "ros/live/frame_queue.h"
 #include "ros/live/node_diagnostics.h"
@@ -47,10 +48,24 @@ class TrackingWorker {
   /// \param refuse is called, on the worker's thread, if they cannot be taken over.
   void set_parameters(const Parameters& parameters, std::function<void()> refuse);
 
+  /// After the frame in work: the state of the run.
+  /// \throw TrackingError if there is none.
+  Checkpoint checkpoint();
+
+  /// After the frame in work: goes on from a checkpoint, in place of the run so far.
+  /// \throw ParameterError, InputError if it does not fit; the run goes on then as if nothing had been asked.
+  void go_on(const Checkpoint& checkpoint);
+
   /// Ends after the frame in work.
   void stop();
 
  private:
+  // Runs something on the worker's thread, and waits for it. What it throws is thrown here.
+  void run_in_turn(const std::function<void()>& task);
+  Checkpoint state() const;
+  void take_over(const Checkpoint& checkpoint);
+  void show_mesh();
+
   void run();
   void process(const ReceivedFrame& frame);
   // Tracks it, or says in the status why it cannot.
@@ -76,6 +91,7 @@ class TrackingWorker {
   FrameQueue queue_;
   FrameAdmission admission_;
   FrameHandler handler_;
+  CheckpointKeeper keeper_;
   TrackedMeshConstPtr last_mesh_;  // Of this run.
   std_msgs::Header last_header_;   // Of the last status.
   bool paused_ = false;
