@@ -36,7 +36,7 @@ class KilledNode {
   /// \param process name of the node whose process is killed, which may be a manager.
   KilledNode(const std::string& name, std::string process)
       : process_(std::move(process)), meshes_(name + "/mesh"), statuses_(name + "/status") {
-    publisher_ = ros::NodeHandle().advertise<sensor_msgs::PointCloud2>("particles", 100);
+    publisher_ = ros::NodeHandle().advertise<sensor_msgs::PointCloud2>(name + "/particles", 100);
     ros::param::get(name + "/checkpoint", checkpoint_);
   }
   ~KilledNode() {
@@ -85,13 +85,13 @@ class KilledNode {
   int kills_ = 0;
 };
 
-void expect_same_meshes(const std::string& name, const std::string& process, unsigned seed) {
+void expect_same_meshes(const std::string& name, const std::string& process, int kills, double settling) {
   const Meshes wanted = uninterrupted();
   KilledNode node(name, process);
-  std::mt19937 random(seed);
+  std::mt19937 random(1);
   int tracked = -1;  // The last frame that was answered as tracked.
   int kept = -1;     // The last one that is in a checkpoint for certain.
-  for (int kill = 0; kill < 5; ++kill) {
+  for (int kill = 0; kill < kills; ++kill) {
     // The source begins again every time; what is known is skipped.
     const int end = std::uniform_int_distribution<int>(2 + 3 * kill, 3 * kill + 4)(random);
     for (int n = 0; n < end; ++n) {
@@ -103,12 +103,13 @@ void expect_same_meshes(const std::string& name, const std::string& process, uns
       tracked = std::max(tracked, n);
     }
     kept = tracked - kEvery;
+    ros::WallDuration(settling).sleep();
     node.send(end);
     ros::WallDuration(0, std::uniform_int_distribution<int>(0, 30000000)(random)).sleep();
     ASSERT_NO_FATAL_FAILURE(node.kill_and_wait());
   }
   for (int n = 0; n < kFrames; ++n) node.answer(n);
-  EXPECT_EQ(node.kills(), 5);
+  EXPECT_EQ(node.kills(), kills);
   EXPECT_TRUE(node.has_checkpoint());
   ASSERT_TRUE(wait_until([&] {
     const auto received = node.meshes().wait_for(0);
@@ -120,11 +121,13 @@ void expect_same_meshes(const std::string& name, const std::string& process, uns
 }
 
 TEST(Respawn, ANodeGoesOnAsIfNothingHadBeen) {
-  expect_same_meshes("/alone", "/alone", 1);
+  expect_same_meshes("/alone", "/alone", /*kills*/ 5, /*settling*/ 0.0);
 }
 
 TEST(Respawn, ANodeletGoesOnAsIfNothingHadBeen) {
-  expect_same_meshes("/managed", "/manager", 2);
+  // The loader of a nodelet learns from a bond that its manager is gone. Where that happens in the first seconds, it
+  // may wait for ever.
+  expect_same_meshes("/managed", "/manager", /*kills*/ 2, /*settling*/ 4.0);
 }
 
 }  // namespace
