@@ -10,22 +10,41 @@
 
 namespace particle_surface_tracker::test {
 
-pid_t process_of(const std::string& node) {
+namespace {
+
+// Asks a node something.
+bool ask(const std::string& node, const std::string& question, XmlRpc::XmlRpcValue& answer) {
   XmlRpc::XmlRpcValue request;
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue uri;
   request[0] = ros::this_node::getName();
   request[1] = node;
-  if (!ros::master::execute("lookupNode", request, response, uri, /*wait_for_master*/ false)) return 0;
+  if (!ros::master::execute("lookupNode", request, response, uri, /*wait_for_master*/ false)) return false;
   std::string host;
   std::uint32_t port = 0;
-  if (!ros::network::splitURI(static_cast<std::string>(uri), host, port)) return 0;
+  if (!ros::network::splitURI(static_cast<std::string>(uri), host, port)) return false;
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
   XmlRpc::XmlRpcValue caller;
   caller[0] = ros::this_node::getName();
+  return client.execute(question.c_str(), caller, answer) && !client.isFault();
+}
+
+}  // namespace
+
+pid_t process_of(const std::string& node) {
   XmlRpc::XmlRpcValue answer;
-  if (!client.execute("getPid", caller, answer) || client.isFault()) return 0;
-  return static_cast<int>(answer[2]);
+  return ask(node, "getPid", answer) ? static_cast<int>(answer[2]) : 0;
+}
+
+int connection_count(const std::string& node, const std::string& topic) {
+  XmlRpc::XmlRpcValue answer;
+  if (!ask(node, "getBusInfo", answer)) return 0;
+  int count = 0;
+  for (int n = 0; n < answer[2].size(); ++n) {
+    XmlRpc::XmlRpcValue& connection = answer[2][n];
+    count += static_cast<std::string>(connection[2]) == "i" && static_cast<std::string>(connection[4]) == topic ? 1 : 0;
+  }
+  return count;
 }
 
 pid_t kill_node(const std::string& node) {

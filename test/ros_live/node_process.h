@@ -14,6 +14,9 @@ pid_t process_of(const std::string& node);
 /// \return the process; 0 if there is none.
 pid_t kill_node(const std::string& node);
 
+/// Connections through which a node receives a topic.
+int connection_count(const std::string& node, const std::string& topic);
+
 /// Waits until a node runs in another process than a given one.
 /// \return whether it does.
 bool wait_for_respawn(const std::string& node, pid_t killed);

@@ -120,9 +120,8 @@ void FrameAdmission::refuse(TrackerStatus& status) const {
   status.reason = fmt::format("there is a gap in the input: {} (queue_policy is strict; call ~reset)", gap_);
 }
 
-void FrameAdmission::conclude(const ReceivedFrame& frame, TrackerStatus& status) {
+void FrameAdmission::conclude(const ReceivedFrame& frame, const TrackerStatus& status) {
   count(frame, status);
-  describe(status);
   if (policy_ != QueuePolicy::kStrict || !gap_.empty()) return;
   // What is not in the mesh is a gap for the next frame, for whatever reason. Before the first mesh it is none, unless
   // the frame that the mesh belongs to is the one that failed.

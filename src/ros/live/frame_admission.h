@@ -26,8 +26,8 @@ class FrameAdmission {
   /// Looks at the next frame.
   Verdict judge(const ReceivedFrame& frame, TrackerStatus& status);
 
-  /// Takes note of what became of it in the end, whether it was tracked or not, and writes the counts into the status.
-  void conclude(const ReceivedFrame& frame, TrackerStatus& status);
+  /// Takes note of what became of it in the end, whether it was tracked or not.
+  void conclude(const ReceivedFrame& frame, const TrackerStatus& status);
 
   /// The next frame is the first of a run; a gap is forgiven.
   void reset();

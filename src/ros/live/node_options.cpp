@@ -119,6 +119,8 @@ NodeOptions read_node_options(const ros::NodeHandle& private_handle) {
       source, "queue_policy",
       {{"all", QueuePolicy::kAll}, {"latest", QueuePolicy::kLatest}, {"strict", QueuePolicy::kStrict}});
   options.interpolate = read_names(source, "interpolate");
+  options.surfaces.topics = read_names(source, "surfaces");
+  options.surfaces.wait = source.real("surface_wait", 0.5, 0.0, 3600.0);
   options.save_folder = source.text("save_folder").value_or("");
   read_checkpoint_options(source, options.checkpoint);
   read_marker_options(source, options);

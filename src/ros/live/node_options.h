@@ -11,6 +11,7 @@
 #include "ros/live/frame_queue.h"
 #include "ros/live/marker_outputs.h"
 #include "ros/live/node_diagnostics.h"
+#include "ros/surface/surface_topics.h"
 
 namespace particle_surface_tracker {
 
@@ -24,6 +25,7 @@ struct NodeOptions {
   std::vector<std::string> interpolate;  ///< Fields of the particles that the mesh is to have.
   std::string save_folder;               ///< Of files that a service is asked to write; empty: none.
   CheckpointOptions checkpoint;
+  SurfaceOptions surfaces;
   MarkerOptions marker;
   DiagnosticOptions diagnostics;
   std::vector<std::string> warnings;  ///< What a user should know, in words.

@@ -34,7 +34,10 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
       checkpoint_(options.checkpoint.path),
       outputs_(private_handle, options.marker),
       diagnostics_(handle, private_handle, options.diagnostics),
-      worker_(options, outputs_, diagnostics_, name_),
+      surfaces_(options.surfaces.topics.empty()
+                    ? nullptr
+                    : std::make_unique<SurfaceTopics>(handle, options.surfaces, options.queue_size, name_)),
+      worker_(options, outputs_, diagnostics_, surfaces_.get(), name_),
       parameter_server_(private_handle, options.handler.parameters,
                         [this](const Parameters& parameters) { worker_.set_parameters(parameters, [] {}); }) {
   for (const std::string& warning : options.warnings) ROS_WARN_STREAM(name_ << ": " << warning);
@@ -61,6 +64,7 @@ TrackerNode::~TrackerNode() {
        {&reset_service_, &pause_service_, &save_mesh_service_, &save_checkpoint_service_, &load_checkpoint_service_}) {
     service->shutdown();
   }
+  if (surfaces_) surfaces_->close();
   worker_.stop();
 }
 

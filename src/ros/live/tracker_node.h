@@ -16,6 +16,7 @@
 #include "ros/live/node_outputs.h"
 #include "ros/live/parameter_server.h"
 #include "ros/live/tracking_worker.h"
+#include "ros/surface/surface_topics.h"
 
 namespace particle_surface_tracker {
 
@@ -43,6 +44,7 @@ class TrackerNode {
   std::string checkpoint_;
   NodeOutputs outputs_;
   NodeDiagnostics diagnostics_;
+  std::unique_ptr<SurfaceTopics> surfaces_;  // Null: none are joined.
   TrackingWorker worker_;
   ParameterServer parameter_server_;
   ros::ServiceServer reset_service_;
