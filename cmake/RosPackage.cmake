@@ -5,7 +5,7 @@ find_package(catkin REQUIRED COMPONENTS
   roscpp_serialization roslz4 rostime sensor_msgs shape_msgs std_msgs std_srvs topic_tools visualization_msgs)
 
 add_message_files(FILES InterpolatedField.msg ParticleSurface.msg TrackedMesh.msg TrackerStatus.msg)
-add_service_files(FILES SaveMesh.srv)
+add_service_files(FILES CheckpointFile.srv SaveMesh.srv)
 generate_messages(DEPENDENCIES std_msgs)
 generate_dynamic_reconfigure_options(cfg/Tracker.cfg)
 

@@ -106,6 +106,29 @@ TEST(SurfaceInbox, WhereTooManyWaitTheNewestGiveWayAndNobodyWaitsForThem) {
   EXPECT_NE(inbox.wait_for(frame_of(4), parameters_with_spacing(r)), nullptr);
 }
 
+TEST(SurfaceInbox, WhatIsNotExpectedIsTakenIfItIsThere) {
+  Complaints complaints;
+  SurfaceInbox inbox(2, std::chrono::hours(1), complaints.note());
+  EXPECT_TRUE(inbox.receive(surface_of(1)));
+  EXPECT_EQ(inbox.wait_for(frame_of(0), parameters_with_spacing(r), /*is_expected*/ false), nullptr);
+  EXPECT_NE(inbox.wait_for(frame_of(1), parameters_with_spacing(r), /*is_expected*/ false), nullptr);
+  // Had somebody waited, it would have been taken.
+  EXPECT_TRUE(inbox.receive(surface_of(0)));
+  EXPECT_FALSE(inbox.receive(surface_of(1)));
+  EXPECT_TRUE(inbox.receive(surface_of(2)));
+  EXPECT_EQ(inbox.missed(), 1u);
+  EXPECT_TRUE(complaints.texts.empty());
+}
+
+TEST(SurfaceInbox, WhatComesLaterThanAWaitTakesIsTooLate) {
+  Complaints complaints;
+  SurfaceInbox inbox(2, milliseconds(10), complaints.note());
+  EXPECT_EQ(inbox.wait_for(frame_of(0), parameters_with_spacing(r), /*is_expected*/ false), nullptr);
+  const ParticleSurfaceConstPtr late = surface_of(0);
+  std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_FALSE(inbox.receive(late));
+}
+
 TEST(SurfaceInbox, ClosingEndsTheWaiting) {
   Complaints complaints;
   SurfaceInbox inbox(2, std::chrono::hours(1), complaints.note());

@@ -43,7 +43,8 @@ def parameters(config):
 class LaunchFiles(unittest.TestCase):
     def test_there_are_some(self):
         names = {path.name for path in FILES}
-        self.assertTrue({"live.launch", "replay.launch", "offline.launch", "live_splishsplash.launch"} <= names, names)
+        self.assertTrue({"live.launch", "replay.launch", "offline.launch", "live_splishsplash.launch",
+                         "distributed.launch", "surface_maker.launch"} <= names, names)
 
     def test_every_argument_is_described(self):
         for path in FILES:
@@ -97,6 +98,24 @@ class LaunchFiles(unittest.TestCase):
         config = load(PROJECT / "launch/live.launch", "manager:=simulation_manager", "rviz:=false")
         self.assertEqual([node.name for node in config.nodes], ["tracker"])
         self.assertEqual(config.nodes[0].args.split()[-1], "simulation_manager")
+
+    def test_checkpoints_and_respawn_reach_the_nodelet(self):
+        config = load(PROJECT / "launch/live.launch", "checkpoint:=/data/run.checkpoint", "checkpoint_every:=20",
+                      "respawn:=true")
+        values = parameters(config)
+        self.assertEqual(values["/tracker/checkpoint"], "/data/run.checkpoint")
+        self.assertEqual(values["/tracker/checkpoint_every"], 20)
+        self.assertTrue(all(node.respawn for node in config.nodes if node.package == "nodelet"))
+
+    def test_makers_share_the_frames(self):
+        config = load(PROJECT / "launch/distributed.launch", "spacing:=0.03", "makers:=3", "local:=2", "rviz:=false")
+        self.assertEqual({node.name for node in config.nodes},
+                         {"tracker_manager", "tracker", "surface_maker_0", "surface_maker_1"})
+        values = parameters(config)
+        self.assertEqual(values["/tracker/surfaces"], "/surfaces")
+        self.assertEqual([values["/surface_maker_1/" + name] for name in ("every", "offset", "spacing")], [3, 1, 0.03])
+        makers = [node for node in config.nodes if node.type == "implicit_surface_node"]
+        self.assertIn(["surfaces", "/surfaces"], [list(pair) for pair in makers[0].remap_args])
 
     def test_replay_is_paced_and_waits(self):
         config = load(PROJECT / "launch/replay.launch", "bag:=/data/a.bag", "rviz:=false")

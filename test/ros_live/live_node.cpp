@@ -1,5 +1,6 @@
 #include "ros_live/live_node.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <boost/make_shared.hpp>
@@ -9,15 +10,32 @@
 
 namespace particle_surface_tracker::test {
 
+namespace {
+
+sensor_msgs::PointCloud2Ptr to_message(ParticleFrame frame, int n) {
+  frame.stamp_ns = 1000000000000 + n * std::int64_t{10000000};
+  auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(to_point_cloud(frame, "tank"));
+  cloud->header.seq = static_cast<std::uint32_t>(n);
+  return cloud;
+}
+
+}  // namespace
+
 sensor_msgs::PointCloud2Ptr ball_cloud(int n) {
   static const ParticleFrame ball = fill_with_particles(Vec3d(-1, -1, -1), Vec3d(1, 1, 1), kBallSpacing, 0.0, 0,
                                                         [](const Vec3d& x) { return x.norm() < 0.95; });
   ParticleFrame frame = ball;
   for (Vec3f& position : frame.positions) position.x() += static_cast<float>(n * kBallSpacing / 16);
-  frame.stamp_ns = 1000000000000 + n * std::int64_t{10000000};
-  auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(to_point_cloud(frame, "tank"));
-  cloud->header.seq = static_cast<std::uint32_t>(n);
-  return cloud;
+  return to_message(std::move(frame), n);
+}
+
+sensor_msgs::PointCloud2Ptr drops_cloud(int n) {
+  static const ParticleFrame start = fill_with_particles(
+      Vec3d(-1.4, -0.7, -0.7), Vec3d(1.4, 0.7, 0.7), kBallSpacing, 0.2, 3,
+      [](const Vec3d& x) { return std::min((x - Vec3d(-0.8, 0, 0)).norm(), (x - Vec3d(0.8, 0.1, 0)).norm()) < 0.6; });
+  ParticleFrame frame = start;
+  for (Vec3f& x : frame.positions) x.x() += (x.x() < 0.0F ? 0.02F : -0.02F) * static_cast<float>(n);
+  return to_message(std::move(frame), n);
 }
 
 TriangleMesh ball_mesh() {

@@ -79,6 +79,9 @@ sensor_msgs::PointCloud2Ptr ball_cloud(int n);
 /// The mesh of frame 0.
 TriangleMesh ball_mesh();
 
+/// Frame n of two drops that merge, with the ball's spacing, stamps and frame_id.
+sensor_msgs::PointCloud2Ptr drops_cloud(int n);
+
 /// A tracker that is loaded into the nodelet manager of this process, with the ball's spacing.
 class LiveNode {
  public:

@@ -1,9 +1,19 @@
 #include "ros/live/frame_admission.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
+#include <zlib.h>
+
+#include "particle_surface_tracker/ros/time_conversion.h"
 
 namespace particle_surface_tracker {
 namespace {
+
+std::uint32_t checksum_of(const sensor_msgs::PointCloud2& cloud) {
+  return static_cast<std::uint32_t>(::crc32_z(::crc32_z(0, nullptr, 0), cloud.data.data(), cloud.data.size()));
+}
 
 std::string stamp_of(const std_msgs::Header& header) {
   return fmt::format("stamp {}.{:09}", header.stamp.sec, header.stamp.nsec);
@@ -23,13 +33,35 @@ FrameAdmission::Verdict FrameAdmission::judge(const ReceivedFrame& frame, Tracke
     refuse(status);
     return Verdict::kRefused;
   }
-  if (frame.reception == Reception::kUsable) return judge_header(frame, status);
+  if (frame.reception == Reception::kUsable) {
+    if (!came_before(frame)) return judge_header(frame, status);
+    sequence_.note_again(frame.header);
+    status.state = TrackerStatus::SKIPPED;
+    status.reason = "it is not later than the last frame of the checkpoint that the run went on from";
+    return Verdict::kRefused;
+  }
   sequence_.pass_over();
   status.reason = frame.reason;
   status.state = frame.reception == Reception::kDropped    ? TrackerStatus::DROPPED
                  : frame.reception == Reception::kReplaced ? TrackerStatus::SKIPPED
                                                            : TrackerStatus::INVALID;
   return Verdict::kRefused;
+}
+
+bool FrameAdmission::came_before(const ReceivedFrame& frame) {
+  if (!went_on_) return false;
+  const bool covered = sequence_.covers(frame.header);
+  if (covered &&
+      (to_nanoseconds(frame.header.stamp) != start_.stamp_ns || checksum_of(*frame.cloud) == start_.checksum)) {
+    return true;
+  }
+  went_on_ = false;
+  if (covered) {
+    log_.warn(
+        "the particles are others than those that the run of the checkpoint began with: the tracker starts again");
+    sequence_.reset();
+  }
+  return false;
 }
 
 FrameAdmission::Verdict FrameAdmission::judge_header(const ReceivedFrame& frame, TrackerStatus& status) {
@@ -88,9 +120,8 @@ void FrameAdmission::refuse(TrackerStatus& status) const {
   status.reason = fmt::format("there is a gap in the input: {} (queue_policy is strict; call ~reset)", gap_);
 }
 
-void FrameAdmission::conclude(const ReceivedFrame& frame, TrackerStatus& status) {
+void FrameAdmission::conclude(const ReceivedFrame& frame, const TrackerStatus& status) {
   count(frame, status);
-  describe(status);
   if (policy_ != QueuePolicy::kStrict || !gap_.empty()) return;
   // What is not in the mesh is a gap for the next frame, for whatever reason. Before the first mesh it is none, unless
   // the frame that the mesh belongs to is the one that failed.
@@ -104,6 +135,8 @@ void FrameAdmission::count(const ReceivedFrame& frame, const TrackerStatus& stat
   const std::string stamp = stamp_of(frame.header);
   switch (status.state) {
     case TrackerStatus::STARTED:
+      start_ = {to_nanoseconds(frame.header.stamp), checksum_of(*frame.cloud)};
+      [[fallthrough]];
     case TrackerStatus::TRACKED:
       ++counts_.frames_tracked;
       has_mesh_ = true;
@@ -111,7 +144,7 @@ void FrameAdmission::count(const ReceivedFrame& frame, const TrackerStatus& stat
     case TrackerStatus::SKIPPED:
       ++counts_.frames_skipped;
       // That a newer one was taken is what was asked for.
-      if (frame.reception == Reception::kReplaced) break;
+      if (frame.reception == Reception::kReplaced || went_on_) break;
       log_.warn_sometimes("skipped", fmt::format("skipped the frame of {}: {}; {} so far", stamp, status.reason,
                                                  counts_.frames_skipped));
       break;
@@ -137,7 +170,22 @@ void FrameAdmission::count(const ReceivedFrame& frame, const TrackerStatus& stat
 void FrameAdmission::reset() {
   sequence_.reset();
   has_mesh_ = false;
+  went_on_ = false;
   gap_.clear();
+}
+
+InputPlace FrameAdmission::place() const {
+  return {sequence_, counts_.run, start_};
+}
+
+void FrameAdmission::go_on(InputPlace place) {
+  reset();
+  sequence_ = std::move(place.sequence);
+  // As after a reset, where there was a run here before.
+  counts_.run = std::max(counts_.run + 1, place.run);
+  start_ = place.start;
+  has_mesh_ = true;
+  went_on_ = true;
 }
 
 void FrameAdmission::describe(TrackerStatus& status) const {

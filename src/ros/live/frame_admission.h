@@ -5,6 +5,7 @@
 #include <particle_surface_tracker/TrackerStatus.h>
 
 #include "ros/live/frame_queue.h"
+#include "ros/live/input_place.h"
 #include "ros/live/input_sequence.h"
 #include "ros/live/throttled_log.h"
 
@@ -25,8 +26,8 @@ class FrameAdmission {
   /// Looks at the next frame.
   Verdict judge(const ReceivedFrame& frame, TrackerStatus& status);
 
-  /// Takes note of what became of it in the end, whether it was tracked or not, and writes the counts into the status.
-  void conclude(const ReceivedFrame& frame, TrackerStatus& status);
+  /// Takes note of what became of it in the end, whether it was tracked or not.
+  void conclude(const ReceivedFrame& frame, const TrackerStatus& status);
 
   /// The next frame is the first of a run; a gap is forgiven.
   void reset();
@@ -34,7 +35,16 @@ class FrameAdmission {
   /// The counts so far.
   void describe(TrackerStatus& status) const;
 
+  /// How far the run has got: what a checkpoint keeps of it.
+  InputPlace place() const;
+
+  /// Goes on with the run of a checkpoint. Frames of it that come again are skipped, until the first new one.
+  void go_on(InputPlace place);
+
  private:
+  // Whether it is a frame that the run has tracked before its checkpoint. One that begins like the run, but with other
+  // particles, begins another.
+  bool came_before(const ReceivedFrame& frame);
   Verdict judge_header(const ReceivedFrame& frame, TrackerStatus& status);
   void note_missing(const ReceivedFrame& frame, std::uint64_t missing, TrackerStatus& status);
   void refuse(TrackerStatus& status) const;
@@ -46,7 +56,9 @@ class FrameAdmission {
   InputSequence sequence_;
   TrackerStatus counts_;   // Only its counters are used.
   bool has_mesh_ = false;  // A frame of this run was tracked.
-  std::string gap_;        // Of policy strict: what was lost first, in words; empty as long as nothing was.
+  InputPlace::Start start_;
+  bool went_on_ = false;  // From a checkpoint; no new frame has come since.
+  std::string gap_;       // Of policy strict: what was lost first, in words; empty as long as nothing was.
 };
 
 }  // namespace particle_surface_tracker

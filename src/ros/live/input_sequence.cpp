@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
+#include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/ros/time_conversion.h"
 
 namespace particle_surface_tracker {
@@ -79,6 +81,52 @@ std::uint64_t InputSequence::count_missing(const std_msgs::Header& header, std::
   intervals_.push_back(interval / static_cast<std::int64_t>(expected + missing));
   if (intervals_.size() > kIntervals) intervals_.pop_front();
   return missing;
+}
+
+void InputSequence::put(ByteWriter& bytes) const {
+  bytes.put(static_cast<std::uint8_t>(started_));
+  bytes.put(std::string_view(frame_id_));
+  bytes.put(index_);
+  bytes.put(passed_over_);
+  bytes.put(first_stamp_);
+  bytes.put(last_stamp_);
+  bytes.put(last_late_stamp_);
+  bytes.put(static_cast<std::int32_t>(late_in_a_row_));
+  bytes.put(last_number_);
+  bytes.put(static_cast<std::uint8_t>(source_counts_));
+  bytes.put(std::vector<std::int64_t>(intervals_.begin(), intervals_.end()));
+}
+
+InputSequence InputSequence::take(ByteReader& bytes) {
+  InputSequence sequence;
+  sequence.started_ = bytes.number<std::uint8_t>("beginning of the run") != 0;
+  sequence.frame_id_ = bytes.text("frame_id of the run");
+  sequence.index_ = bytes.number<std::uint64_t>("index of the last frame");
+  sequence.passed_over_ = bytes.number<std::uint64_t>("number of frames passed over");
+  sequence.first_stamp_ = bytes.number<std::int64_t>("first stamp");
+  sequence.last_stamp_ = bytes.number<std::int64_t>("last stamp");
+  sequence.last_late_stamp_ = bytes.number<std::int64_t>("last late stamp");
+  sequence.late_in_a_row_ = bytes.number<std::int32_t>("number of late frames");
+  sequence.last_number_ = bytes.number<std::uint32_t>("last sequence number");
+  sequence.source_counts_ = bytes.number<std::uint8_t>("kind of sequence numbers") != 0;
+  const auto intervals = bytes.numbers<std::int64_t>("interval of stamps");
+  sequence.intervals_.assign(intervals.begin(), intervals.end());
+  const bool has_intervals =
+      std::all_of(intervals.begin(), intervals.end(), [](std::int64_t interval) { return interval >= 0; });
+  if (!sequence.started_ || sequence.first_stamp_ > sequence.last_stamp_ || !has_intervals ||
+      intervals.size() > kIntervals) {
+    throw InputError("its stamps do not fit together");
+  }
+  return sequence;
+}
+
+bool InputSequence::covers(const std_msgs::Header& header) const {
+  const std::int64_t stamp = to_nanoseconds(header.stamp);
+  return started_ && header.frame_id == frame_id_ && stamp >= first_stamp_ && stamp <= last_stamp_;
+}
+
+void InputSequence::note_again(const std_msgs::Header& header) {
+  if (to_nanoseconds(header.stamp) == last_stamp_) last_number_ = header.seq;
 }
 
 }  // namespace particle_surface_tracker

@@ -6,6 +6,8 @@
 
 #include <std_msgs/Header.h>
 
+#include "particle_surface_tracker/io/byte_stream.h"
+
 namespace particle_surface_tracker {
 
 /// Follows the headers of the input: tells frames that continue a run from those that begin another or come too late,
@@ -40,6 +42,19 @@ class InputSequence {
 
   /// The next frame is the first.
   void reset() { *this = InputSequence(); }
+
+  /// Puts all that the next judgement goes by.
+  void put(ByteWriter& bytes) const;
+
+  /// Takes what put() has put.
+  /// \throw InputError if it is something else.
+  static InputSequence take(ByteReader& bytes);
+
+  /// Whether a frame lies within the run so far, from its first stamp to its last.
+  bool covers(const std_msgs::Header& header) const;
+
+  /// A frame that the run covers came again, and is not judged. Gaps after the last one are found by its new number.
+  void note_again(const std_msgs::Header& header);
 
  private:
   Judgement begin(const std_msgs::Header& header, Verdict verdict);

@@ -1,52 +1,11 @@
 #include "ros/live/mesh_saver.h"
 
-#include <algorithm>
-#include <filesystem>
-
-#include <fmt/format.h>
-
-#include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_writer.h"
 #include "particle_surface_tracker/ros/mesh_conversion.h"
+#include "ros/live/save_path.h"
 
 namespace particle_surface_tracker {
 namespace {
-
-namespace fs = std::filesystem;
-
-fs::path real_folder(const std::string& folder) {
-  if (folder.empty()) {
-    throw ParameterError("~save_folder is not set; set it to the folder that files may be written to");
-  }
-  if (!fs::path(folder).is_absolute()) {
-    throw ParameterError(fmt::format("~save_folder is '{}'; it must be an absolute path", folder));
-  }
-  std::error_code error;
-  const fs::path real = fs::canonical(folder, error);
-  if (error || !fs::is_directory(real, error)) {
-    throw ParameterError(fmt::format("~save_folder is '{}', which is no folder", folder));
-  }
-  return real;
-}
-
-bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
-/// Where a file lies once all links are followed, as far as its folders exist.
-fs::path real_path(const fs::path& folder, const std::string& name) {
-  if (name.empty()) throw ParameterError("the path is empty; it must name a file below ~save_folder");
-  if (name.find('\0') != std::string::npos) throw ParameterError("the path holds a zero byte");
-  const fs::path wanted(name);
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(folder / wanted, error);
-  if (error) throw ParameterError(fmt::format("the path '{}' cannot be resolved: {}", name, error.message()));
-  if (wanted.is_absolute() || !is_below(real, folder) || real == folder) {
-    throw ParameterError(
-        fmt::format("the path '{}' is not below ~save_folder '{}'; it must be relative to it", name, folder.string()));
-  }
-  return real;
-}
 
 /// The mesh with the interpolated fields as attributes, as far as their names are free.
 TriangleMesh mesh_to_write(const TrackedMesh& message) {
@@ -63,19 +22,11 @@ TriangleMesh mesh_to_write(const TrackedMesh& message) {
 }  // namespace
 
 std::string save_mesh(const std::string& folder, const std::string& name, const TrackedMesh& mesh) {
-  const fs::path path = real_path(real_folder(folder), name);
-  const std::string extension = path.extension().string();
-  if (extension != ".ply" && extension != ".obj") {
-    throw ParameterError(fmt::format("the path '{}' ends in '{}'; it must end in .ply or .obj", name, extension));
-  }
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  if (error) {
-    throw OutputError(fmt::format("Cannot make the folder '{}': {}.", path.parent_path().string(), error.message()));
-  }
+  const std::string path = path_below(folder, name, {".ply", ".obj"});
+  make_folders_of(path);
   const TriangleMesh triangles = mesh_to_write(mesh);
-  extension == ".ply" ? write_ply(path.string(), triangles) : write_obj(path.string(), triangles);
-  return path.string();
+  path.compare(path.size() - 4, 4, ".ply") == 0 ? write_ply(path, triangles) : write_obj(path, triangles);
+  return path;
 }
 
 }  // namespace particle_surface_tracker

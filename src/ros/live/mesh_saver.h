@@ -8,11 +8,9 @@ namespace particle_surface_tracker {
 
 /// Writes a mesh into a folder, by a name that may come from anywhere on the network. The file appears whole or not at
 /// all; folders below the given one are made.
-/// \param folder of the files; relative paths are refused, since nobody knows where a node was started.
 /// \param name path below the folder that ends in .ply or .obj.
 /// \return the whole path of the file.
-/// \throw ParameterError if the folder is not set, relative or missing, or the name is empty, leads out of the folder
-/// (also by a link), or has no such ending.
+/// \throw ParameterError as path_below().
 /// \throw OutputError if the file cannot be written.
 std::string save_mesh(const std::string& folder, const std::string& name, const TrackedMesh& mesh);
 

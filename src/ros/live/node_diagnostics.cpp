@@ -145,6 +145,8 @@ void NodeDiagnostics::describe_tracking(Report& report) const {
   report.add("rate [1/s]", static_cast<double>(shown_interval_.tracked) / shown_seconds_);
   report.add("frames tracked", status.frames_tracked);
   report.add("frames failed", status.frames_failed);
+  report.add("surfaces joined", status.surfaces_joined);
+  report.add("surfaces made here", status.surfaces_own);
   report.add("runs", status.run);
   report.add("frames that wait", status.queue_length);
   report.add("longest latency [s]", latency);

@@ -1,6 +1,7 @@
 #include "ros/live/node_options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -88,6 +89,21 @@ void read_marker_options(PrivateParameters& source, NodeOptions& options) {
   if (options.marker.coloring == MarkerColoring::kVelocity) options.content.velocities = true;
 }
 
+void read_checkpoint_options(PrivateParameters& source, CheckpointOptions& options) {
+  options.path = source.text("checkpoint").value_or("");
+  options.every = static_cast<std::uint64_t>(source.whole("checkpoint_every", 0, 0, 1000000));
+  if (options.path.empty()) {
+    if (options.every > 0) throw ParameterError("~checkpoint_every needs ~checkpoint, the file to keep");
+    return;
+  }
+  const std::filesystem::path path(options.path);
+  std::error_code error;
+  if (!path.is_absolute() || !std::filesystem::is_directory(path.parent_path(), error)) {
+    throw ParameterError(
+        fmt::format("~checkpoint is '{}'; it must be an absolute path in a folder that is there", options.path));
+  }
+}
+
 }  // namespace
 
 NodeOptions read_node_options(const ros::NodeHandle& private_handle) {
@@ -103,7 +119,10 @@ NodeOptions read_node_options(const ros::NodeHandle& private_handle) {
       source, "queue_policy",
       {{"all", QueuePolicy::kAll}, {"latest", QueuePolicy::kLatest}, {"strict", QueuePolicy::kStrict}});
   options.interpolate = read_names(source, "interpolate");
+  options.surfaces.topics = read_names(source, "surfaces");
+  options.surfaces.wait = source.real("surface_wait", 0.5, 0.0, 3600.0);
   options.save_folder = source.text("save_folder").value_or("");
+  read_checkpoint_options(source, options.checkpoint);
   read_marker_options(source, options);
   options.diagnostics.period = source.real("diagnostic_period", 1.0, 0.1, 3600.0);
   options.diagnostics.late_after = source.real("late_after", 1.0, 0.0, 1e6);

@@ -7,9 +7,11 @@
 #include <ros/node_handle.h>
 
 #include "particle_surface_tracker/ros/frame_handler.h"
+#include "ros/live/checkpoint_keeper.h"
 #include "ros/live/frame_queue.h"
 #include "ros/live/marker_outputs.h"
 #include "ros/live/node_diagnostics.h"
+#include "ros/surface/surface_topics.h"
 
 namespace particle_surface_tracker {
 
@@ -21,7 +23,9 @@ struct NodeOptions {
   QueuePolicy queue_policy = QueuePolicy::kAll;
   bool mesh_from_topic = false;          ///< The mesh to begin with comes from a topic; frames wait for it.
   std::vector<std::string> interpolate;  ///< Fields of the particles that the mesh is to have.
-  std::string save_folder;               ///< Of meshes that a service is asked to save; empty: none may be.
+  std::string save_folder;               ///< Of files that a service is asked to write; empty: none.
+  CheckpointOptions checkpoint;
+  SurfaceOptions surfaces;
   MarkerOptions marker;
   DiagnosticOptions diagnostics;
   std::vector<std::string> warnings;  ///< What a user should know, in words.

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/io/checkpoint.h"
+#include "particle_surface_tracker/ros/time_conversion.h"
 #include "ros/live/mesh_saver.h"
+#include "ros/live/save_path.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -14,6 +17,11 @@ namespace {
 // roscpp's own queue drops silently. It is emptied at once, and long enough for that never to happen before the queue
 // of the node is full, which says what it drops.
 constexpr std::size_t kSmallestSubscriberQueue = 100;
+
+std::string frame_of(const Checkpoint& checkpoint) {
+  const ros::Time stamp = to_ros_time(checkpoint.tracker.frame.particles.stamp_ns);
+  return fmt::format("the particles of stamp {}.{:09}", stamp.sec, stamp.nsec);
+}
 
 }  // namespace
 
@@ -23,15 +31,21 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, const ros::NodeHandle& private_
 TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, const NodeOptions& options)
     : name_(private_handle.getNamespace()),
       save_folder_(options.save_folder),
+      checkpoint_(options.checkpoint.path),
       outputs_(private_handle, options.marker),
       diagnostics_(handle, private_handle, options.diagnostics),
-      worker_(options, outputs_, diagnostics_, name_),
+      surfaces_(options.surfaces.topics.empty()
+                    ? nullptr
+                    : std::make_unique<SurfaceTopics>(handle, options.surfaces, options.queue_size, name_)),
+      worker_(options, outputs_, diagnostics_, surfaces_.get(), name_),
       parameter_server_(private_handle, options.handler.parameters,
                         [this](const Parameters& parameters) { worker_.set_parameters(parameters, [] {}); }) {
   for (const std::string& warning : options.warnings) ROS_WARN_STREAM(name_ << ": " << warning);
   reset_service_ = private_handle.advertiseService("reset", &TrackerNode::reset, this);
   pause_service_ = private_handle.advertiseService("pause", &TrackerNode::pause, this);
   save_mesh_service_ = private_handle.advertiseService("save_mesh", &TrackerNode::save_mesh, this);
+  save_checkpoint_service_ = private_handle.advertiseService("save_checkpoint", &TrackerNode::save_checkpoint, this);
+  load_checkpoint_service_ = private_handle.advertiseService("load_checkpoint", &TrackerNode::load_checkpoint, this);
   if (options.mesh_from_topic) {
     initial_mesh_ = std::make_unique<InitialMeshTopic>(
         handle, name_, [this](TriangleMesh mesh) { worker_.set_initial_mesh(std::move(mesh)); });
@@ -46,7 +60,11 @@ TrackerNode::~TrackerNode() {
   // In this order, so that nothing is called any more that is gone.
   particles_.shutdown();
   if (initial_mesh_) initial_mesh_->shutdown();
-  for (ros::ServiceServer* service : {&reset_service_, &pause_service_, &save_mesh_service_}) service->shutdown();
+  for (ros::ServiceServer* service :
+       {&reset_service_, &pause_service_, &save_mesh_service_, &save_checkpoint_service_, &load_checkpoint_service_}) {
+    service->shutdown();
+  }
+  if (surfaces_) surfaces_->close();
   worker_.stop();
 }
 
@@ -79,6 +97,46 @@ bool TrackerNode::save_mesh(SaveMesh::Request& request, SaveMesh::Response& resp
     response.success = 0;
     response.message = error.what();
     ROS_ERROR_STREAM(name_ << ": cannot save the mesh: " << error.what());
+  }
+  return true;
+}
+
+std::string TrackerNode::checkpoint_path(const std::string& name) const {
+  if (!name.empty()) return path_below(save_folder_, name, {".checkpoint"});
+  if (checkpoint_.empty()) throw ParameterError("the path is empty, and ~checkpoint is not set");
+  return checkpoint_;
+}
+
+bool TrackerNode::save_checkpoint(CheckpointFile::Request& request, CheckpointFile::Response& response) {
+  try {
+    const std::string path = checkpoint_path(request.path);
+    const Checkpoint checkpoint = worker_.checkpoint();
+    make_folders_of(path);
+    write_checkpoint(path, checkpoint);
+    response.success = 1;
+    response.path = path;
+    response.message = fmt::format("the run up to {}", frame_of(checkpoint));
+    ROS_INFO_STREAM(name_ << ": saved the checkpoint " << path);
+  } catch (const std::exception& error) {
+    response.success = 0;
+    response.message = error.what();
+    ROS_ERROR_STREAM(name_ << ": cannot save a checkpoint: " << error.what());
+  }
+  return true;
+}
+
+bool TrackerNode::load_checkpoint(CheckpointFile::Request& request, CheckpointFile::Response& response) {
+  try {
+    const std::string path = checkpoint_path(request.path);
+    const Checkpoint checkpoint = read_checkpoint(path);
+    worker_.go_on(checkpoint);
+    response.success = 1;
+    response.path = path;
+    response.message = fmt::format("goes on after {}", frame_of(checkpoint));
+  } catch (const std::exception& error) {
+    response.success = 0;
+    response.message = error.what();
+    ROS_ERROR_STREAM(name_ << ": cannot go on from a checkpoint: " << error.what());
   }
   return true;
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include <particle_surface_tracker/CheckpointFile.h>
 #include <particle_surface_tracker/SaveMesh.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -15,6 +16,7 @@
 #include "ros/live/node_outputs.h"
 #include "ros/live/parameter_server.h"
 #include "ros/live/tracking_worker.h"
+#include "ros/surface/surface_topics.h"
 
 namespace particle_surface_tracker {
 
@@ -33,15 +35,23 @@ class TrackerNode {
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool save_mesh(SaveMesh::Request& request, SaveMesh::Response& response);
 
+  bool save_checkpoint(CheckpointFile::Request& request, CheckpointFile::Response& response);
+  bool load_checkpoint(CheckpointFile::Request& request, CheckpointFile::Response& response);
+  std::string checkpoint_path(const std::string& name) const;
+
   std::string name_;
   std::string save_folder_;
+  std::string checkpoint_;
   NodeOutputs outputs_;
   NodeDiagnostics diagnostics_;
+  std::unique_ptr<SurfaceTopics> surfaces_;  // Null: none are joined.
   TrackingWorker worker_;
   ParameterServer parameter_server_;
   ros::ServiceServer reset_service_;
   ros::ServiceServer pause_service_;
   ros::ServiceServer save_mesh_service_;
+  ros::ServiceServer save_checkpoint_service_;
+  ros::ServiceServer load_checkpoint_service_;
   std::unique_ptr<InitialMeshTopic> initial_mesh_;
   ros::Subscriber particles_;
 };

@@ -14,7 +14,7 @@
 namespace particle_surface_tracker {
 
 TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDiagnostics& diagnostics,
-                               const std::string& name)
+                               SurfaceTopics* surfaces, const std::string& name)
     : content_(options.content),
       interpolate_(options.interpolate),
       outputs_(outputs),
@@ -23,8 +23,13 @@ TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDi
       queue_(options.queue_size, options.queue_policy),
       admission_(options.queue_policy, log_),
       handler_(std::move(options.handler)),
+      keeper_(options.checkpoint, log_),
       awaits_mesh_(options.mesh_from_topic) {
-  update_waiting();
+  if (surfaces != nullptr) join_surfaces(*surfaces);
+  queue_.push(FrameQueue::Command([this] {
+    keeper_.resume([this](const Checkpoint& checkpoint) { take_over(checkpoint); });
+    update_waiting();
+  }));
   thread_ = std::thread([this] { run(); });
 }
 
@@ -53,6 +58,7 @@ void TrackingWorker::reset() {
     admission_.reset();
     diagnostics_.note_reset();
     forget_run();
+    update_waiting();
   }));
 }
 
@@ -105,6 +111,7 @@ void TrackingWorker::run() {
       outputs_.publish_due_markers();
     }
   }
+  keeper_.finish([this] { return state(); });
 }
 
 void TrackingWorker::process(const ReceivedFrame& frame) {
@@ -113,7 +120,10 @@ void TrackingWorker::process(const ReceivedFrame& frame) {
   if (verdict == FrameAdmission::Verdict::kBeginsRun) forget_run();
   if (verdict != FrameAdmission::Verdict::kRefused) try_to_track(frame, status);
   admission_.conclude(frame, status);
+  describe_counts(status);
+  const bool is_tracked = status.state == TrackerStatus::STARTED || status.state == TrackerStatus::TRACKED;
   publish(frame, std::move(status));
+  if (is_tracked) keeper_.note_frame([this] { return state(); });
 }
 
 void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& status) {
@@ -134,8 +144,13 @@ void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& sta
 
 void TrackingWorker::track(const ReceivedFrame& frame, TrackerStatus& status) {
   const bool is_first = !handler_.started();
+  if (is_first && awaits_mesh_)
+    throw TrackingError("the mesh to begin with has not come on the topic initial_mesh yet");
   const std::uint32_t first_new_id = is_first ? 0 : handler_.tracker().mesh().next_id();
+  number_ = frame.header.seq;
+  is_joined_ = false;
   const FrameReport report = handler_.handle(*frame.cloud, status.frame);
+  ++(is_joined_ ? surfaces_joined_ : surfaces_own_);
   status.state = is_first ? TrackerStatus::STARTED : TrackerStatus::TRACKED;
   describe(report, status);
   const auto view = make_view(frame, report, first_new_id, status);
@@ -188,11 +203,26 @@ void TrackingWorker::forget_run() {
   handler_.reset();
   outputs_.clear();
   last_mesh_.reset();
+  keeper_.forget();
+}
+
+void TrackingWorker::join_surfaces(SurfaceTopics& surfaces) {
+  handler_.set_surface_source([this, &surfaces](const ParticleFrame& particles, const Parameters& parameters) {
+    auto surface = surfaces.surface_of(number_, particles, parameters);
+    is_joined_ = surface != nullptr;
+    return surface;
+  });
+}
+
+void TrackingWorker::describe_counts(TrackerStatus& status) const {
+  admission_.describe(status);
+  status.surfaces_joined = surfaces_joined_;
+  status.surfaces_own = surfaces_own_;
 }
 
 std::string TrackingWorker::waiting_for() const {
   if (paused_) return "paused: frames wait until ~pause is called with false";
-  if (awaits_mesh_) return "frames wait for the mesh to begin with, on the topic initial_mesh";
+  if (awaits_mesh_ && !handler_.started()) return "frames wait for the mesh to begin with, on the topic initial_mesh";
   return "";
 }
 
@@ -212,7 +242,7 @@ void TrackingWorker::publish_waiting() {
   status.header = last_header_;
   status.reason = reason;
   status.queue_length = static_cast<std::uint32_t>(queue_.size());
-  admission_.describe(status);
+  describe_counts(status);
   outputs_.publish(boost::make_shared<const TrackerStatus>(std::move(status)));
 }
 

@@ -12,6 +12,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "particle_surface_tracker/ros/frame_handler.h"
+#include "ros/live/checkpoint_keeper.h"
 #include "ros/live/frame_admission.h"
 #include "ros/live/frame_queue.h"
 #include "ros/live/node_diagnostics.h"
@@ -19,6 +20,7 @@
 #include "ros/live/node_outputs.h"
 #include "ros/live/throttled_log.h"
 #include "ros/live/tracked_view.h"
+#include "ros/surface/surface_topics.h"
 
 namespace particle_surface_tracker {
 
@@ -26,9 +28,11 @@ namespace particle_surface_tracker {
 class TrackingWorker {
  public:
   /// \param name of the node, for the log.
-  /// \param outputs, diagnostics outlive this object.
+  /// \param outputs, diagnostics, surfaces outlive this object.
+  /// \param surfaces may be null: then all are made here.
   /// \throw ParameterError as FrameHandler.
-  TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDiagnostics& diagnostics, const std::string& name);
+  TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDiagnostics& diagnostics, SurfaceTopics* surfaces,
+                 const std::string& name);
   ~TrackingWorker();
 
   /// Checks the layout of a cloud and puts it in the row. Answers within microseconds.
@@ -47,10 +51,24 @@ class TrackingWorker {
   /// \param refuse is called, on the worker's thread, if they cannot be taken over.
   void set_parameters(const Parameters& parameters, std::function<void()> refuse);
 
+  /// After the frame in work: the state of the run.
+  /// \throw TrackingError if there is none.
+  Checkpoint checkpoint();
+
+  /// After the frame in work: goes on from a checkpoint, in place of the run so far.
+  /// \throw ParameterError, InputError if it does not fit; the run goes on then as if nothing had been asked.
+  void go_on(const Checkpoint& checkpoint);
+
   /// Ends after the frame in work.
   void stop();
 
  private:
+  // Runs something on the worker's thread, and waits for it. What it throws is thrown here.
+  void run_in_turn(const std::function<void()>& task);
+  Checkpoint state() const;
+  void take_over(const Checkpoint& checkpoint);
+  void show_mesh();
+
   void run();
   void process(const ReceivedFrame& frame);
   // Tracks it, or says in the status why it cannot.
@@ -61,6 +79,9 @@ class TrackingWorker {
   void add_interpolated(const sensor_msgs::PointCloud2& cloud, TrackedMesh& mesh, TrackerStatus& status);
   void say(const ReceivedFrame& frame, const FrameReport& report, const TrackerStatus& status);
   void forget_run();
+  void join_surfaces(SurfaceTopics& surfaces);
+  // The counts so far.
+  void describe_counts(TrackerStatus& status) const;
   // What nothing is tracked for now; empty if it is.
   std::string waiting_for() const;
   // Lets frames wait, or not any more, and tells everyone.
@@ -76,8 +97,13 @@ class TrackingWorker {
   FrameQueue queue_;
   FrameAdmission admission_;
   FrameHandler handler_;
+  CheckpointKeeper keeper_;
   TrackedMeshConstPtr last_mesh_;  // Of this run.
   std_msgs::Header last_header_;   // Of the last status.
+  std::uint32_t number_ = 0;       // The header.seq of the frame in work,
+  bool is_joined_ = false;         // and whether another node has made its surface.
+  std::uint64_t surfaces_joined_ = 0;
+  std::uint64_t surfaces_own_ = 0;
   bool paused_ = false;
   bool awaits_mesh_;
   std::atomic<bool> waits_{false};

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <particle_surface_tracker/ParticleSurface.h>
@@ -30,11 +31,14 @@ class SurfaceInbox {
                std::function<void(const std::string&)> complain);
 
   /// Receives a surface, on any thread.
-  void receive(const ParticleSurfaceConstPtr& surface);
+  /// \return whether it is in time: nobody has asked for it yet, or not longer ago than a wait takes.
+  bool receive(const ParticleSurfaceConstPtr& surface);
 
   /// Waits for the surface of a frame. Surfaces of frames before it are not wanted any more.
+  /// \param is_expected false: takes it only if it is there already.
   /// \return null if it does not come in time, or was made of something else.
-  std::shared_ptr<const ImplicitSurface> wait_for(const ParticleFrame& particles, const Parameters& parameters);
+  std::shared_ptr<const ImplicitSurface> wait_for(const ParticleFrame& particles, const Parameters& parameters,
+                                                  bool is_expected = true);
 
   /// Ends all waiting, now and for ever.
   void close();
@@ -43,8 +47,9 @@ class SurfaceInbox {
   std::uint64_t missed() const;  ///< Those that did not, or did not fit.
 
  private:
-  ParticleSurfaceConstPtr take(std::int64_t stamp_ns);
+  ParticleSurfaceConstPtr take(std::int64_t stamp_ns, bool is_expected);
   void forget_until(std::int64_t stamp_ns);
+  void note_in_vain(std::int64_t stamp_ns, std::chrono::steady_clock::time_point asked);
 
   const std::size_t limit_;
   const std::chrono::duration<double> patience_;
@@ -53,6 +58,9 @@ class SurfaceInbox {
   std::condition_variable changed_;
   // By stamp [ns]; null where one gave way, so that nobody waits for it.
   std::map<std::int64_t, ParticleSurfaceConstPtr> waiting_;
+  std::optional<std::int64_t> last_asked_;  // [ns]
+  // When those were asked for that had not come: not longer ago than a wait takes.
+  std::map<std::int64_t, std::chrono::steady_clock::time_point> asked_in_vain_;
   std::size_t surfaces_ = 0;  // Of waiting_: those that are not null.
   std::uint64_t taken_ = 0;
   std::uint64_t missed_ = 0;

@@ -74,8 +74,11 @@ void SurfaceNode::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
     const ParticleFrame particles = to_particle_frame(*cloud);
     if (particles.empty()) return;
     const auto surface = make_implicit_surface(particles, options_.parameters);
-    surfaces_.publish(boost::make_shared<const ParticleSurface>(
-        to_surface_message(cloud->header, *surface, particles, options_.parameters)));
+    auto message = boost::make_shared<ParticleSurface>(
+        to_surface_message(cloud->header, *surface, particles, options_.parameters));
+    message->every = static_cast<std::uint32_t>(options_.every);
+    message->offset = static_cast<std::uint32_t>(options_.offset);
+    surfaces_.publish(ParticleSurfaceConstPtr(std::move(message)));
   } catch (const std::exception& error) {
     ROS_WARN_STREAM_THROTTLE(kSecondsBetweenWarnings, name_ << ": no surface of the frame of stamp "
                                                             << cloud->header.stamp << ": " << error.what());
