@@ -58,7 +58,7 @@ double reach_of(const FilledBody& body) {
 void advection(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
   const ParticleFrame later = next_frame(body.particles);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const ParticleMotion motion = match_particles(body.particles, later, body.parameters);
     const ParticleGrid grid(motion.positions, body.parameters.particle_spacing);
     benchmark::DoNotOptimize(advect(body.mesh.positions(), motion, grid, body.parameters));
@@ -67,7 +67,7 @@ void advection(benchmark::State& state) {
 
 void implicit_function(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const ParticleGrid grid(body.particles.positions, implicit_function_cell_size(body.parameters));
     benchmark::DoNotOptimize(evaluate_implicit_function(grid, body.parameters));
   }
@@ -77,14 +77,14 @@ void implicit_function(benchmark::State& state) {
 void triangulation(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
   const ImplicitSurface surface = surface_of(body);
-  for (auto _ : state) benchmark::DoNotOptimize(triangulate_zero_level(*surface.field, surface.dx));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(triangulate_zero_level(*surface.field, surface.dx));
   state.counters["triangles"] = static_cast<double>(surface.triangulation.triangles.size());
 }
 
 void distance_field(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
   const ImplicitSurface surface = surface_of(body);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     benchmark::DoNotOptimize(DistanceFields(surface).at_stencils(body.mesh.positions(), reach_of(body)));
   }
 }
@@ -94,7 +94,7 @@ void projection(benchmark::State& state) {
   const SignedDistanceField field = DistanceFields(surface_of(body)).at_stencils(body.mesh.positions(), reach_of(body));
   std::vector<ProjectionStatus> status;
   const std::vector<float> delta = measure_delta(body.mesh.positions(), field, body.parameters, status);
-  for (auto _ : state) benchmark::DoNotOptimize(project(body.mesh.positions(), delta, field, body.parameters));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(project(body.mesh.positions(), delta, field, body.parameters));
   state.counters["vertices"] = static_cast<double>(body.mesh.vertex_count());
 }
 
@@ -124,7 +124,7 @@ struct MatchingInput {
 
 void mesh_lattice(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     benchmark::DoNotOptimize(MeshLattice(body.mesh.positions(), body.mesh.triangles(), MatchingInput::cell_size(body)));
   }
 }
@@ -132,7 +132,7 @@ void mesh_lattice(benchmark::State& state) {
 void disagreement(benchmark::State& state) {
   const FilledBody& body = body_of(state.range(0));
   const MatchingInput input(body);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     benchmark::DoNotOptimize(find_disagreement(MeshQuery(input.lattice), input.delta,
                                                IsosurfaceQuery(input.surface, input.lattice.h()), body.parameters));
   }
@@ -145,7 +145,7 @@ void match(benchmark::State& state, MatchingSolver solver, double reach) {
   parameters.matching_solver = solver;
   parameters.matching_reach = reach;
   MatchedVoxelization matched;
-  for (auto _ : state)
+  while (state.KeepRunning())
     matched = match_topology(MeshQuery(input.lattice), IsosurfaceQuery(input.surface, input.lattice.h()), input.flagged,
                              parameters);
   state.counters["unknowns"] = static_cast<double>(matched.statistics.unknowns);
