@@ -119,6 +119,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     request.is_liquid = [&](const openvdb::Coord& node) {
       return isosurface.field().distances({node}, h).front() < 0.0F;
     };
+    request.remesh_crossings = pass == 0 && parameters.self_intersections == SelfIntersections::kRemesh;
     timer.begin("remeshing");
     const RemeshingReport remeshed = remesh(mesh, lattice, request, to_record);
     describe(remeshed, report);

@@ -24,6 +24,8 @@ struct RemeshingRequest {
   /// True where φ < 0 at a node of Γ. Asked around components that cross no lattice edge; without it, nothing speaks
   /// for liquid there.
   std::function<bool(const openvdb::Coord&)> is_liquid;
+  /// Cells in which triangles cross each other count as tangles, also where Γ does not see it.
+  bool remesh_crossings = false;
 };
 
 /// What re-meshing did to a mesh.

@@ -7,6 +7,7 @@
 
 #include "cell_complexity.h"
 #include "cell_filling.h"
+#include "crossing_triangles.h"
 #include "face_paths.h"
 #include "front_growth.h"
 #include "gamma_nodes.h"
@@ -68,7 +69,13 @@ class Remesher {
       for (int corner = 0; corner < kCellCorners; ++corner) marked_.insert(node - corner_of({0, 0, 0}, corner));
     }
     report_.changed_nodes = gamma_.changed().size();
-    const CellComplexity complexity = classify_cells(gamma_);
+    CellComplexity complexity = classify_cells(gamma_);
+    if (request_.remesh_crossings) {
+      for (const Coord& cell : find_crossing_cells(lattice_)) {
+        complexity.complex.insert(cell);
+        complexity.tangled.insert(cell);
+      }
+    }
     for (const Coord& cell : complexity.tangled.cells()) marked_.insert(cell);
     report_.complex_cells = complexity.complex.cells().size();
     report_.tangled_cells = complexity.tangled.cells().size();
