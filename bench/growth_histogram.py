@@ -59,11 +59,11 @@ def main():
         if not files:
             parser.error(f"{folder} has no cells_*.vtp; track_bag --debug-cells all writes them")
         columns.append((folder.name, np.concatenate([regions_of(path) for path in files])))
-    print("| marked by growth | " + " | ".join(name for name, _ in columns) + " |")
+    print("| cells marked by growth | " + " | ".join(name for name, _ in columns) + " |")
     print("|---|" + "---|" * len(columns))
     for low, high in zip(EDGES, EDGES[1:]):
         counts = [np.count_nonzero((regions[:, 1] >= low) & (regions[:, 1] < high)) for _, regions in columns]
-        print(f"| {bin_name(low, high)} cells | " + " | ".join(f"{count:,}" for count in counts) + " |")
+        print(f"| {bin_name(low, high)} | " + " | ".join(f"{count:,}" for count in counts) + " |")
     print("| regions | " + " | ".join(f"{len(regions):,}" for _, regions in columns) + " |")
     print("| most in one | " + " | ".join(f"{regions[:, 1].max():,}" for _, regions in columns) + " |")
     print("| share of all marked cells | "
