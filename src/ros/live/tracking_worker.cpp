@@ -135,6 +135,7 @@ void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& sta
 void TrackingWorker::track(const ReceivedFrame& frame, TrackerStatus& status) {
   const bool is_first = !handler_.started();
   const std::uint32_t first_new_id = is_first ? 0 : handler_.tracker().mesh().next_id();
+  handler_.record_topology_cells(outputs_.shows_topology());
   const FrameReport report = handler_.handle(*frame.cloud, status.frame);
   status.state = is_first ? TrackerStatus::STARTED : TrackerStatus::TRACKED;
   describe(report, status);
