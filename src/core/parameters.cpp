@@ -15,9 +15,10 @@ namespace particle_surface_tracker {
 
 namespace {
 
-using Field = std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*,
-                           ProjectionMethod Parameters::*, MatchingSolver Parameters::*, DetectionMethod Parameters::*,
-                           MatchingFrames Parameters::*, TopologyMode Parameters::*, StretchedDetail Parameters::*>;
+using Field =
+    std::variant<double Parameters::*, int Parameters::*, AdvectionMethod Parameters::*, ProjectionMethod Parameters::*,
+                 MatchingSolver Parameters::*, DetectionMethod Parameters::*, MatchingFrames Parameters::*,
+                 TopologyMode Parameters::*, StretchedDetail Parameters::*, SelfIntersections Parameters::*>;
 
 struct Entry {
   ParameterInfo info;
@@ -113,6 +114,9 @@ std::vector<Entry> make_entries() {
              "gradients."),
       real(&P::beta, "beta", "beta", "dx_Gamma", 1e-9, 1.0, false,
            "The SOR solver of topology matching ends when its largest step is below this."),
+      choice(&P::self_intersections, "self_intersections", {"keep", "remesh"},
+             "Triangles that cross each other within a cell of Gamma stay, or their cells are made anew; what "
+             "crosses more widely is always made anew."),
       real(&P::split_length, "split_length", "", "dx_Gamma", 0.5, 1e6, false,
            "A longer edge is split, if it has also grown by split_growth."),
       real(&P::split_growth, "split_growth", "", "", 1.0, 1e6, false,

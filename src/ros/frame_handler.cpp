@@ -37,6 +37,7 @@ FrameHandler::~FrameHandler() = default;
 FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uint64_t frame_index) {
   PreparedFrame prepared = prepare(cloud);
   const std::int64_t stamp_ns = prepared.particles.stamp_ns;
+  if (started()) tracker_->record_topology_cells(records_cells_);
   const bool is_first = !started();
   VertexPlaces places;
   if (!is_first) places = {tracker_->mesh().ids(), tracker_->mesh().positions()};
@@ -74,6 +75,10 @@ void FrameHandler::look_ahead(const sensor_msgs::PointCloud2ConstPtr& cloud) {
   if (started()) ahead_ = std::make_unique<FrameAhead>(cloud, tracker_->parameters());
 }
 
+void FrameHandler::record_topology_cells(bool on) {
+  records_cells_ = on;
+}
+
 void FrameHandler::save(Checkpoint& checkpoint) const {
   checkpoint.tracker = tracker_->state();
   checkpoint.sections[message_section] = to_bytes(MessageState{header_, seconds_, *before_, topology_version_});
@@ -105,6 +110,7 @@ FrameReport FrameHandler::start(const ParticleFrame& frame, std::uint64_t frame_
   Parameters parameters = options_.parameters;
   if (options_.estimate_spacing) parameters.particle_spacing = estimate_particle_spacing(frame);
   Tracker tracker(parameters);
+  tracker.record_topology_cells(records_cells_);
   FrameReport report;
   if (options_.mesh) {
     TriangleMesh mesh = *options_.mesh;

@@ -146,6 +146,7 @@ class OfflineRun {
 
   void track(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud) {
     const bool is_first = !handler_->started();
+    handler_->record_topology_cells(outputs_->wants_cells(frame));
     FrameReport report = handler_->handle(*cloud, frame);
     if (is_first && options_.estimate_spacing && !options_.quiet) {
       out_ << fmt::format("particle spacing estimated from frame {}: {:.6g} m\n", frame,

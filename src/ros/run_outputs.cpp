@@ -1,5 +1,6 @@
 #include "run_outputs.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -16,10 +17,11 @@ namespace {
 
 }  // namespace
 
-RunOutputs::RunOutputs(const OfflineOptions& options, const OutputProgress* from) {
+RunOutputs::RunOutputs(const OfflineOptions& options, const OutputProgress* from) : cell_frames_(options.debug_cells) {
   if (options.format) meshes_.emplace(options.out, *options.format);
   if (!options.surface.empty()) surfaces_.emplace(options.surface, MeshFormat::kPly);
   if (!options.vdb.empty()) fields_.emplace(options.vdb);
+  if (!cell_frames_.empty()) cells_.emplace(options.out);
   if (!options.report.empty()) open_report(options, from);
   if (!options.out_bag.empty()) open_bag(options, from);
 }
@@ -49,6 +51,11 @@ void RunOutputs::open_bag(const OfflineOptions& options, const OutputProgress* f
   }
 }
 
+bool RunOutputs::wants_cells(std::uint64_t frame) const {
+  return std::any_of(cell_frames_.begin(), cell_frames_.end(),
+                     [frame](const auto& range) { return range.first <= frame && frame <= range.second; });
+}
+
 void RunOutputs::write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
                        const FrameReport& report) {
   if (meshes_) meshes_->write(handler.tracker().mesh(), frame);
@@ -57,6 +64,7 @@ void RunOutputs::write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstP
     surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame);
   }
   if (fields_) fields_->write(*handler.tracker().implicit_surface(), frame);
+  if (wants_cells(frame)) cells_->write(*handler.tracker().topology_cells(), frame);
   if (bag_) bag_->write(cloud, handler.message());
   if (parts_) parts_->write(cloud, handler.message());
   if (report_) report_->write(report);

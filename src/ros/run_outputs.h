@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <sensor_msgs/PointCloud2.h>
 
 #include "bag_parts.h"
+#include "particle_surface_tracker/io/cell_files.h"
 #include "particle_surface_tracker/io/mesh_sequence.h"
 #include "particle_surface_tracker/io/report_writer.h"
 #include "particle_surface_tracker/io/vdb_sequence.h"
@@ -24,6 +27,9 @@ class RunOutputs {
   /// \throw ParameterError if the options do not fit each other, or that run.
   /// \throw InputError, OutputError as MeshSequence, ReportWriter, TrackingBagWriter and BagParts.
   RunOutputs(const OfflineOptions& options, const OutputProgress* from);
+
+  /// Whether the cells of a frame are to be recorded for write().
+  bool wants_cells(std::uint64_t frame) const;
 
   /// \throw OutputError if something cannot be written.
   void write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
@@ -48,6 +54,8 @@ class RunOutputs {
   std::optional<MeshSequence> meshes_;
   std::optional<MeshSequence> surfaces_;
   std::optional<VdbSequence> fields_;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> cell_frames_;
+  std::optional<CellFiles> cells_;
   std::optional<ReportWriter> report_;
   std::optional<TrackingBagWriter> bag_;  // Either this one,
   std::optional<BagParts> parts_;         // or this one.

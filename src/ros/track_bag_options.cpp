@@ -1,8 +1,12 @@
 #include "track_bag_options.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +24,7 @@ struct RawOptions {
   std::string spacing;
   std::string format = "ply";
   std::string config;
+  std::string debug_cells;
   std::vector<std::string> settings;
   std::optional<std::uint64_t> checkpoint_every;
 };
@@ -91,6 +96,10 @@ void add_outputs(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
       ->type_name("DIR");
   app.add_option("--vdb", options.vdb, "Folder for the implicit function phi of every frame, as OpenVDB level set")
       ->type_name("DIR");
+  app.add_option("--debug-cells", raw.debug_cells,
+                 "Write what re-meshing did in some frames (3,10-20) or all into --out: flagged, complex, marked ... "
+                 "cells and psi, as OpenVDB and VTP")
+      ->type_name("FRAMES|all");
   app.add_option("--out-bag", options.out_bag, "Bag of the particles and, in /tracked_mesh, the tracked meshes")
       ->type_name("FILE");
   app.add_option("--report", options.report, "File with one JSON object per frame and line")->type_name("FILE.jsonl");
@@ -130,11 +139,39 @@ double read_spacing(const std::string& text) {
   return spacing;
 }
 
+std::uint64_t read_frame(const std::string& text, const std::string& all) {
+  std::uint64_t frame = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw ParameterError(
+        fmt::format("--debug-cells {}: '{}' is no frame; expected for instance 3,10-20, or all", all, text));
+  }
+  return frame;
+}
+
+std::vector<std::pair<std::uint64_t, std::uint64_t>> read_frames(const std::string& text) {
+  if (text == "all") return {{0, std::numeric_limits<std::uint64_t>::max()}};
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    const std::size_t dash = part.find('-');
+    const std::uint64_t first = read_frame(part.substr(0, dash), text);
+    const std::uint64_t last = dash == std::string::npos ? first : read_frame(part.substr(dash + 1), text);
+    if (last < first)
+      throw ParameterError(fmt::format("--debug-cells {}: frame {} comes before {}", text, last, first));
+    ranges.emplace_back(first, last);
+    begin = end + 1;
+  }
+  return ranges;
+}
+
 void resolve(const RawOptions& raw, OfflineOptions& options) {
   if (raw.mesh != "implicit") options.mesh = raw.mesh;
   options.format = formats.at(raw.format);
   if (!raw.config.empty()) read_parameter_file(raw.config, options.parameters);
   for (const std::string& setting : raw.settings) apply_setting(setting, options.parameters);
+  if (!raw.debug_cells.empty()) options.debug_cells = read_frames(raw.debug_cells);
   options.estimate_spacing = raw.spacing == "auto";
   if (options.checkpoint.empty()) options.checkpoint = options.resume;
   if (raw.checkpoint_every && options.checkpoint.empty()) {

@@ -80,7 +80,8 @@ std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_
 
 double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, const ImplicitSurface& surface,
                        const Detection& detection, std::uint32_t original_vertices, const Parameters& parameters,
-                       NarrowBand& band, UpkeepMemory& memory, FrameReport& report, StageTimer& timer) {
+                       NarrowBand& band, UpkeepMemory& memory, FrameReport& report, StageTimer& timer,
+                       TopologyCells* record) {
   const double r = parameters.particle_spacing;
   const double h = parameters.dx_gamma * r;
   const std::uint32_t first_new_id = mesh.next_id();
@@ -108,7 +109,9 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     ++report.topology.passes;
     RemeshingRequest request;
     request.flagged_cells = flagged;
-    MatchedVoxelization matched = match_topology(before, isosurface, flagged, parameters, at_conflicts);
+    TopologyCells cells;
+    TopologyCells* const to_record = record != nullptr ? &cells : nullptr;
+    MatchedVoxelization matched = match_topology(before, isosurface, flagged, parameters, at_conflicts, to_record);
     describe(matched, report.topology);
     report.flagged_cells += flagged.size();
     request.nodes = matched.nodes;
@@ -116,9 +119,11 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     request.is_liquid = [&](const openvdb::Coord& node) {
       return isosurface.field().distances({node}, h).front() < 0.0F;
     };
+    request.remesh_crossings = pass == 0 && parameters.self_intersections == SelfIntersections::kRemesh;
     timer.begin("remeshing");
-    const RemeshingReport remeshed = remesh(mesh, lattice, request);
+    const RemeshingReport remeshed = remesh(mesh, lattice, request, to_record);
     describe(remeshed, report);
+    if (record != nullptr) record->add(cells);
     if (!remeshed.changed()) break;
     // What was cut may have left scraps that the liquid does not have.
     timer.begin("topology_matching");

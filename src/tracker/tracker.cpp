@@ -27,6 +27,7 @@ constexpr double kInitialReach = 64.0;
 /// The last frame; replaced as a whole once nothing can fail any more.
 struct Tracked : TrackedFrame {
   std::shared_ptr<const ImplicitSurface> surface;
+  std::shared_ptr<TopologyCells> cells;
 };
 
 /// Largest |δ| and |φ(x)| over the vertices that were found and not flagged [m].
@@ -90,6 +91,7 @@ struct Tracker::State {
   Parameters parameters;
   std::unique_ptr<Tracked> tracked;
   UpkeepMemory upkeep_memory;
+  bool records_cells = false;
 
   double r() const { return parameters.particle_spacing; }
   double smallest_reach() const { return parameters.tau * r(); }
@@ -103,6 +105,14 @@ struct Tracker::State {
                     surface.dx, dx));
   }
 
+  /// Where to record the cells of a frame; null: nowhere.
+  std::shared_ptr<TopologyCells> new_cells() const {
+    if (!records_cells) return nullptr;
+    auto cells = std::make_shared<TopologyCells>();
+    cells->cell_size = parameters.dx_gamma * r();
+    return cells;
+  }
+
   /// Measures δ of a new mesh and takes it over.
   void begin(TriangleMesh mesh, const ParticleFrame& frame, std::shared_ptr<const ImplicitSurface> surface,
              FrameReport& report, StageTimer& timer) {
@@ -111,6 +121,7 @@ struct Tracker::State {
     next->particles = frame;
     next->particles_frame = report.frame;
     next->surface = std::move(surface);
+    next->cells = new_cells();
     next->original_vertices = next->mesh.next_id();
     std::fill(next->mesh.delta().begin(), next->mesh.delta().end(), 0.0f);
     const Projection measured = NarrowBand(*next->surface, parameters, timer)
@@ -170,7 +181,7 @@ struct Tracker::State {
     for (const std::uint32_t v : next.detection.flagged_vertices) flagged_ids.push_back(next.mesh.ids()[v]);
     const double new_delta = update_topology(next.mesh, frame.positions, *next.surface, next.detection,
                                              static_cast<std::uint32_t>(next.original_vertices), parameters, band,
-                                             upkeep_memory, report, timer);
+                                             upkeep_memory, report, timer, next.cells.get());
     next.band = std::max(next.band, new_delta);
     next.detection.flagged_vertices = vertices_of(next.mesh, flagged_ids);
   }
@@ -183,7 +194,7 @@ Tracker::Tracker(const Parameters& parameters) : state_(std::make_unique<State>(
 
 Tracker::Tracker(const TrackerState& state) : Tracker(state.parameters) {
   check_tracker_state(state);
-  auto tracked = std::make_unique<Tracked>(Tracked{state.frame, nullptr});
+  auto tracked = std::make_unique<Tracked>(Tracked{state.frame, nullptr, nullptr});
   tracked->surface = make_implicit_surface(tracked->particles, state.parameters);
   state_->tracked = std::move(tracked);
 }
@@ -245,6 +256,7 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
   report.frame = frame_index;
   StageTimer timer(report);
   auto next = std::make_unique<Tracked>(*state_->tracked);
+  next->cells = state_->new_cells();
   if (frame.empty()) {
     report.particles_gone = next->particles.size();
     report.warnings.push_back("the frame holds no particles; the mesh waits for them to return");
@@ -299,6 +311,14 @@ const TriangleMesh& Tracker::mesh() const {
 
 std::shared_ptr<const ImplicitSurface> Tracker::implicit_surface() const {
   return started() ? state_->tracked->surface : nullptr;
+}
+
+void Tracker::record_topology_cells(bool on) {
+  state_->records_cells = on;
+}
+
+std::shared_ptr<const TopologyCells> Tracker::topology_cells() const {
+  return started() ? state_->tracked->cells : nullptr;
 }
 
 const Detection& Tracker::detection() const {

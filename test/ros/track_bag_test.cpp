@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
 #include <rosbag/view.h>
 
 #include "particle_surface_tracker/io/mesh_reader.h"
@@ -51,6 +53,31 @@ TEST_F(TrackBag, ChecksEveryFrameIfAsked) {
     EXPECT_GT(line["self_intersecting_triangles"], 0.0);
     EXPECT_LE(line["self_intersecting_triangles"], 1.0);
   }
+}
+
+TEST_F(TrackBag, WritesCellsOfTheFramesThatAreAskedForAndNothingElseChanges) {
+  write_bag(4);
+  // A second ball crosses the first, so that there is something to re-mesh.
+  write_ply(folder_ / "ball.ply",
+            joined({make_sphere(Vec3d::Zero(), 1.0, 3), make_sphere(Vec3d(0.05, 0.02, 0.01), 0.95, 3)}));
+  ASSERT_EQ(run_standard("--quiet --debug-cells 1,3-7 --report @/report.jsonl").code, 0);
+  std::vector<std::string> cells, meshes;
+  for (const std::string& name : files_in("out")) (name.rfind("cells_", 0) == 0 ? cells : meshes).push_back(name);
+  EXPECT_EQ(cells,
+            (std::vector<std::string>{"cells_000001.vdb", "cells_000001.vtp", "cells_000003.vdb", "cells_000003.vtp"}));
+  openvdb::initialize();
+  openvdb::io::File file(folder_ / "out/cells_000001.vdb");
+  file.open();
+  EXPECT_EQ(file.readGrid("marked")->activeVoxelCount(), report()[1]["topology"]["remeshed_cells"]);
+  EXPECT_GT(file.readGrid("tangled")->activeVoxelCount(), 0u);
+
+  ASSERT_EQ(run("--bag @/in.bag --mesh @/ball.ply --spacing 0.2 --out @/plain --quiet").code, 0);
+  EXPECT_EQ(files_in("plain"), meshes);
+  for (const std::string& name : meshes) {
+    EXPECT_EQ(read_file(folder_ / ("plain/" + name)), read_file(folder_ / ("out/" + name))) << name;
+  }
+  expect_error(run_standard("--debug-cells 1,x"), 1, {"--debug-cells 1,x", "'x'"});
+  expect_error(run_standard("--debug-cells 5-3"), 1, {"--debug-cells", "3", "5"});
 }
 
 TEST_F(TrackBag, RangeOfFramesKeepsTheirNumbers) {

@@ -69,9 +69,10 @@ TEST_F(LiveViews, ImplicitSurfaceAndCellsAreShownAndGoWithTheReset) {
   offline.handle(*ball_cloud(0), 0);
   EXPECT_EQ(surface[0]->points.size(), 3 * offline.tracker().implicit_surface()->triangulation.triangles.size());
   EXPECT_LT(surface[0]->color.a, 1.0f);
-  ASSERT_EQ(cells[0]->markers.size(), 2u);
+  ASSERT_EQ(cells[0]->markers.size(), 6u);
   EXPECT_EQ(cells[0]->markers[0].ns, "flagged_cells");
   EXPECT_EQ(cells[0]->markers[1].ns, "remeshed_cells");
+  EXPECT_EQ(cells[0]->markers[5].ns, "front_cells");
   call_reset(*node);
   ASSERT_EQ(surfaces.wait_for(2).size(), 2u);
   EXPECT_EQ(surfaces.wait_for(2)[1]->action, Marker::DELETE);

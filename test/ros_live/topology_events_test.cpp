@@ -120,5 +120,24 @@ TEST(TopologyMarkers, KeepCellsAndEventsUntilTheyAreShown) {
   EXPECT_EQ(markers.remove({})->markers.at(0).action, Marker::DELETEALL);
 }
 
+TEST(TopologyMarkers, ShowTheCellsOfEachKindWhereTheyWereRecorded) {
+  TopologyCells cells;
+  cells.complex = {{0, 0, 0}, {1, 0, 0}};
+  cells.tangled = {{1, 0, 0}};
+  cells.front = {{2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
+  TrackedView recorded = view();
+  recorded.cells = std::make_shared<const TopologyCells>(cells);
+  const auto shown = TopologyMarkers().show(recorded);
+  ASSERT_EQ(shown->markers.size(), 6u);
+  EXPECT_EQ(shown->markers[2].ns, "complex_cells");
+  EXPECT_EQ(shown->markers[2].points.size(), 2u);
+  EXPECT_EQ(shown->markers[3].ns, "tangled_cells");
+  EXPECT_EQ(shown->markers[3].points.size(), 1u);
+  EXPECT_EQ(shown->markers[4].ns, "deep_cells");
+  EXPECT_EQ(shown->markers[4].action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(shown->markers[5].ns, "front_cells");
+  EXPECT_EQ(shown->markers[5].points.size(), 3u);
+}
+
 }  // namespace
 }  // namespace particle_surface_tracker::test

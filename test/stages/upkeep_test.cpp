@@ -219,6 +219,27 @@ struct Offsets {
   }
 };
 
+TEST(Upkeep, CollapsesAFanOfThousandsOfTriangles) {
+  // Two cones with their bases joined; the rim shrinks, so that its edges become short. A cell of Γ that is filled from
+  // one point can have such a fan.
+  constexpr std::uint32_t kRim = 2000;
+  std::vector<Vec3f> positions = {{0, 0, 1}, {0, 0, -1}};
+  std::vector<Triangle> triangles;
+  for (std::uint32_t n = 0; n < kRim; ++n) {
+    const double angle = 2.0 * std::acos(-1.0) * n / kRim;
+    positions.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0F);
+    const std::uint32_t here = 2 + n, next = 2 + (n + 1) % kRim;
+    triangles.push_back({0, here, next});
+    triangles.push_back({1, next, here});
+  }
+  TriangleMesh mesh(std::move(positions), std::move(triangles));
+  note_birth(mesh);
+  test::scale(mesh, Vec3d(0.25, 0.25, 1.0));
+  const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.1));
+  EXPECT_GT(report.collapses + report.sliver_collapses, kRim / 2);
+  EXPECT_TRUE(test::defects_of(mesh).none());
+}
+
 TEST(Upkeep, PutsNewVerticesOnTheSmoothSurfaceOfARegularMesh) {
   TriangleMesh mesh = test::make_torus(Vec3d::Zero(), 1.0, 0.4, 100, 40);
   note_birth(mesh);

@@ -35,6 +35,12 @@ enum class MatchingFrames {
   kEvery     ///< Everywhere in every frame.
 };
 
+/// What becomes of triangles that cross each other within a cell of Γ, where Γ does not see it.
+enum class SelfIntersections {
+  kKeep,   ///< They stay, unless mesh upkeep can relax them.
+  kRemesh  ///< Their cells are made anew (Sec. 7).
+};
+
 /// What becomes of δ where the surface is drawn out.
 enum class StretchedDetail {
   kKeep,  ///< It stays, as in the paper.
@@ -87,6 +93,8 @@ struct Parameters {
   MatchingFrames matching_frames = MatchingFrames::kFlagged;
   MatchingSolver matching_solver = MatchingSolver::kSor;
   double beta = 0.01;  // β: the SOR solver ends when no step is longer [Δx_Γ].
+
+  SelfIntersections self_intersections = SelfIntersections::kKeep;
 
   // Mesh upkeep (Sec. 8): limits that must all be passed, against neighbours and against the mesh at its birth.
   double split_length = 1.5;        // A longer edge is split [Δx_Γ],

@@ -65,6 +65,9 @@ class FrameHandler {
   /// handle() asks this for the surface of every frame but the first that is not ahead.
   void set_surface_source(SurfaceSource source) { surface_source_ = std::move(source); }
 
+  /// As Tracker::record_topology_cells(), for the frames handled from now on.
+  void record_topology_cells(bool on);
+
   /// Puts into a checkpoint all that the next frame goes on from.
   /// \pre started().
   void save(Checkpoint& checkpoint) const;
@@ -110,6 +113,7 @@ class FrameHandler {
   std::uint32_t topology_version_ = 0;
   std::unique_ptr<FrameAhead> ahead_;
   SurfaceSource surface_source_;
+  bool records_cells_ = false;
 };
 
 }  // namespace particle_surface_tracker

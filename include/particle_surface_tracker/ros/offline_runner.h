@@ -6,6 +6,8 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "particle_surface_tracker/core/parameters.h"
 #include "particle_surface_tracker/io/mesh_sequence.h"
@@ -30,6 +32,8 @@ struct OfflineOptions {
   std::optional<MeshFormat> format = MeshFormat::kPly;  ///< None: no mesh files, and the folder is not touched.
   std::string surface;                                  ///< Folder for the implicit surfaces.
   std::string vdb;                                      ///< Folder for φ.
+  /// First and last of frames whose flagged, complex, marked … cells are written into `out`.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> debug_cells;
   std::string out_bag;
   std::string report;
 

@@ -7,6 +7,7 @@
 
 #include <openvdb/Types.h>
 
+#include "particle_surface_tracker/core/topology_cells.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
@@ -23,6 +24,8 @@ struct RemeshingRequest {
   /// True where φ < 0 at a node of Γ. Asked around components that cross no lattice edge; without it, nothing speaks
   /// for liquid there.
   std::function<bool(const openvdb::Coord&)> is_liquid;
+  /// Cells in which triangles cross each other count as tangles, also where Γ does not see it.
+  bool remesh_crossings = false;
 };
 
 /// What re-meshing did to a mesh.
@@ -54,8 +57,10 @@ struct RemeshingReport {
 ///
 /// Components that cross no edge of the lattice are removed unless φ confirms them. A mesh may end up empty.
 /// \param lattice of this very mesh.
+/// \param record receives the cells of each kind, and the changed nodes; null: nothing is recorded.
 /// \return what was done; if `gave_up`, the mesh is unchanged.
 /// \throw MeshError if the numbers of nodes and values in the request differ, or the lattice is that of another mesh.
-RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request);
+RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
+                       TopologyCells* record = nullptr);
 
 }  // namespace particle_surface_tracker

@@ -6,6 +6,7 @@
 #include <openvdb/Types.h>
 
 #include "particle_surface_tracker/core/parameters.h"
+#include "particle_surface_tracker/core/topology_cells.h"
 #include "particle_surface_tracker/stages/isosurface_query.h"
 #include "particle_surface_tracker/stages/mesh_query.h"
 
@@ -44,9 +45,11 @@ struct MatchedVoxelization {
 /// \param flagged_cells cells of Γ.
 /// \param at_conflicts nodes where Γ gets the side of φ, whatever the mesh says: ψ counts where it leads away from the
 /// other side, and is 0 where it does not. They count as flagged.
+/// \param record receives ψ at fixed nodes and unknowns; null: nothing is recorded.
 /// \throw TrackingError if the whole domain is asked for (matching_reach 0) and has more than 2^28 nodes.
 MatchedVoxelization match_topology(const MeshQuery& mesh, const IsosurfaceQuery& isosurface,
                                    const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters,
-                                   const std::vector<openvdb::Coord>& at_conflicts = {});
+                                   const std::vector<openvdb::Coord>& at_conflicts = {},
+                                   TopologyCells* record = nullptr);
 
 }  // namespace particle_surface_tracker

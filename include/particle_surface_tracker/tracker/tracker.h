@@ -7,6 +7,7 @@
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/parameters.h"
 #include "particle_surface_tracker/core/particle_frame.h"
+#include "particle_surface_tracker/core/topology_cells.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/stages/detection.h"
 #include "particle_surface_tracker/tracker/tracker_state.h"
@@ -74,6 +75,13 @@ class Tracker {
 
   /// What was flagged in the last frame.
   const Detection& detection() const;
+
+  /// From the next frame on, keeps the cells of Γ that topology matching and re-meshing looked at. Meshes do not depend
+  /// on it.
+  void record_topology_cells(bool on);
+
+  /// Those of the last frame; empty where nothing was flagged, deep or tangled. Null: they were not recorded.
+  std::shared_ptr<const TopologyCells> topology_cells() const;
 
  private:
   void require_started() const;

@@ -53,6 +53,7 @@ TrackedView view_of(const Tracker& tracker, const FrameReport& report, std::uint
   view.cell_size = tracker.parameters().dx_gamma * view.r;
   view.flagged_cells = tracker.detection().flagged_cells;
   view.remeshed_cells = remeshed_cells(tracker.mesh(), first_new_id, report.topology.new_vertices, view.cell_size);
+  view.cells = tracker.topology_cells();
   return view;
 }
 

@@ -22,7 +22,7 @@ MarkerOutputs::~MarkerOutputs() {
 }
 
 void MarkerOutputs::show(std::shared_ptr<const TrackedView> view) {
-  if (topology_publisher_.getNumSubscribers() > 0) topology_.remember(*view);
+  if (shows_topology()) topology_.remember(*view);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     view_ = std::move(view);
@@ -62,7 +62,7 @@ void MarkerOutputs::publish_due() {
   if (view_ == nullptr) return;
   if (mesh_publisher_.getNumSubscribers() > 0) mesh_publisher_.publish(make_mesh_marker(*view_, options_.coloring));
   if (surface_publisher_.getNumSubscribers() > 0) surface_publisher_.publish(make_surface_marker(*view_));
-  if (topology_publisher_.getNumSubscribers() > 0) topology_publisher_.publish(topology_.show(*view_));
+  if (shows_topology()) topology_publisher_.publish(topology_.show(*view_));
 }
 
 void MarkerOutputs::welcome(const ros::SingleSubscriberPublisher& subscriber, bool to_mesh) {

@@ -28,6 +28,9 @@ class MarkerOutputs {
   MarkerOutputs(const MarkerOutputs&) = delete;
   MarkerOutputs& operator=(const MarkerOutputs&) = delete;
 
+  /// Whether somebody wants to see where the topology changes.
+  bool shows_topology() const { return topology_publisher_.getNumSubscribers() > 0; }
+
   /// Shows a frame, now or when it is due.
   void show(std::shared_ptr<const TrackedView> view);
 

@@ -28,6 +28,9 @@ class NodeOutputs {
   void publish(std::shared_ptr<const TrackedView> view);
   void publish(const TrackerStatusConstPtr& status) { status_publisher_.publish(status); }
 
+  /// Whether TrackedView::cells of a frame would be shown.
+  bool shows_topology() const { return markers_.shows_topology(); }
+
   /// Takes the last mesh away, from rviz too.
   void clear();
 

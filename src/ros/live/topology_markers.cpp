@@ -87,6 +87,13 @@ MarkerArrayPtr TopologyMarkers::show(const TrackedView& view) {
   remeshed_cells_.erase(std::unique(remeshed_cells_.begin(), remeshed_cells_.end()), remeshed_cells_.end());
   markers->markers.push_back(cell_marker(view, view.flagged_cells, "flagged_cells", 0.9f, 0.2f, 0.1f));
   markers->markers.push_back(cell_marker(view, remeshed_cells_, "remeshed_cells", 0.2f, 0.7f, 0.3f));
+  if (view.cells != nullptr) {
+    const TopologyCells& cells = *view.cells;
+    markers->markers.push_back(cell_marker(view, cells.complex, "complex_cells", 0.2f, 0.4f, 1.0f));
+    markers->markers.push_back(cell_marker(view, cells.tangled, "tangled_cells", 1.0f, 0.6f, 0.0f));
+    markers->markers.push_back(cell_marker(view, cells.deep, "deep_cells", 0.6f, 0.0f, 0.8f));
+    markers->markers.push_back(cell_marker(view, cells.front, "front_cells", 0.1f, 0.1f, 0.1f));
+  }
   for (const TopologyEvent& event : events_) {
     markers->markers.push_back(label(view, event, next_label_));
     next_label_ = (next_label_ + 1) % static_cast<int>(kMostLabels);

@@ -8,8 +8,9 @@
 
 namespace particle_surface_tracker {
 
-/// Shows where the topology changes: cells that are flagged, cells that were re-meshed since they were shown last, and
-/// a label for every split and merge, which goes after three seconds. Each has a namespace of its own.
+/// Shows where the topology changes: cells that are flagged, cells that were re-meshed since they were shown last, the
+/// complex, tangled, deep and front cells of the frame, and a label for every split and merge, which goes after three
+/// seconds. Each has a namespace of its own.
 class TopologyMarkers {
  public:
   /// Keeps what must not be missed where not every frame is shown.

@@ -7,6 +7,7 @@
 #include <particle_surface_tracker/TrackedMesh.h>
 
 #include "particle_surface_tracker/core/implicit_surface.h"
+#include "particle_surface_tracker/core/topology_cells.h"
 #include "ros/live/topology_events.h"
 
 namespace particle_surface_tracker {
@@ -19,6 +20,7 @@ struct TrackedView {
   double cell_size = 0.0;                      ///< Δx_Γ [m].
   std::vector<openvdb::Coord> flagged_cells;   ///< Of Γ: with a vertex that was flagged.
   std::vector<openvdb::Coord> remeshed_cells;  ///< Of Γ: in which re-meshing made vertices.
+  std::shared_ptr<const TopologyCells> cells;  ///< Null where nobody wants to see them.
   std::vector<TopologyEvent> events;
 };
 

@@ -149,6 +149,7 @@ void TrackingWorker::track(const ReceivedFrame& frame, TrackerStatus& status) {
   const std::uint32_t first_new_id = is_first ? 0 : handler_.tracker().mesh().next_id();
   number_ = frame.header.seq;
   is_joined_ = false;
+  handler_.record_topology_cells(outputs_.shows_topology());
   const FrameReport report = handler_.handle(*frame.cloud, status.frame);
   ++(is_joined_ ? surfaces_joined_ : surfaces_own_);
   status.state = is_first ? TrackerStatus::STARTED : TrackerStatus::TRACKED;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -33,15 +34,29 @@ constexpr double kPcgTolerance = 1e-8;
 constexpr int kMargin = 3;
 constexpr double kLargestDomain = 1 << 28;
 
+/// Nodes, in order, with ψ at them.
+NodeValues values_at(const std::vector<openvdb::Coord>& nodes, const double* psi) {
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
+  NodeValues values;
+  for (const std::size_t n : order) {
+    values.nodes.push_back(nodes[n]);
+    values.values.push_back(static_cast<float>(psi[n]));
+  }
+  return values;
+}
+
 /// Rounds of solving in a region that grows.
 class TopologyMatching {
  public:
   TopologyMatching(const MeshQuery& mesh, const FieldAtNodes& field, const NodeMasks& flagged,
-                   const NodeMasks& follows_phi, const Parameters& parameters)
+                   const NodeMasks& follows_phi, const Parameters& parameters, TopologyCells* record)
       : lattice_(mesh.lattice()),
         flagged_(flagged),
         follows_phi_(follows_phi),
         parameters_(parameters),
+        record_(record),
         diagonal_(std::sqrt(3.0) * mesh.lattice().h()),
         mesh_signs_(mesh.signs()),
         field_(field) {}
@@ -81,6 +96,10 @@ class TopologyMatching {
     statistics.iterations += solved.iterations;
     statistics.converged = solved.converged;
     statistics.residual = largest_residual(problem.poisson);
+    if (record_ != nullptr) {
+      record_->unknown = values_at(problem.unknowns.nodes(), problem.poisson.values.data());
+      record_->fixed = values_at(problem.fixed, problem.poisson.values.data() + problem.poisson.size());
+    }
     take_over(nodes.unknown, problem, reach);
   }
 
@@ -130,6 +149,7 @@ class TopologyMatching {
   const NodeMasks& flagged_;
   const NodeMasks& follows_phi_;
   const Parameters& parameters_;
+  TopologyCells* record_;
   double diagonal_;
   const LineSigns& mesh_signs_;
   const FieldAtNodes& field_;
@@ -163,7 +183,7 @@ NodeMasks whole_domain(const NodeMasks& surfaces) {
 
 MatchedVoxelization match_topology(const MeshQuery& mesh, const IsosurfaceQuery& isosurface,
                                    const std::vector<openvdb::Coord>& flagged_cells, const Parameters& parameters,
-                                   const std::vector<openvdb::Coord>& at_conflicts) {
+                                   const std::vector<openvdb::Coord>& at_conflicts, TopologyCells* record) {
   const bool everywhere = parameters.matching_frames == MatchingFrames::kEvery;
   if (flagged_cells.empty() && at_conflicts.empty() && !everywhere) return {};
   NodeMasks follows_phi;
@@ -179,7 +199,7 @@ MatchedVoxelization match_topology(const MeshQuery& mesh, const IsosurfaceQuery&
   } else {
     region.dilate(reach, reach);
   }
-  TopologyMatching matching(mesh, isosurface.field(), flagged, follows_phi, parameters);
+  TopologyMatching matching(mesh, isosurface.field(), flagged, follows_phi, parameters, record);
   MatchedVoxelization matched = matching.run(std::move(region), reach);
   for (const NodeMasks::Leaf& leaf : flagged.leaves()) {
     for (int x = 0; x < 8; ++x) {

@@ -7,6 +7,7 @@
 
 #include "cell_complexity.h"
 #include "cell_filling.h"
+#include "crossing_triangles.h"
 #include "face_paths.h"
 #include "front_growth.h"
 #include "gamma_nodes.h"
@@ -35,10 +36,11 @@ constexpr std::size_t kMostRounds = 40;
 
 class Remesher {
  public:
-  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request)
+  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request, TopologyCells* record)
       : mesh_(mesh),
         lattice_(lattice),
         request_(request),
+        record_(record),
         gamma_(lattice, request.nodes, request.gamma),
         cuts_(lattice),
         tracer_(cuts_),
@@ -67,15 +69,50 @@ class Remesher {
       for (int corner = 0; corner < kCellCorners; ++corner) marked_.insert(node - corner_of({0, 0, 0}, corner));
     }
     report_.changed_nodes = gamma_.changed().size();
-    const CellComplexity complexity = classify_cells(gamma_);
+    CellComplexity complexity = classify_cells(gamma_);
+    if (request_.remesh_crossings) {
+      for (const Coord& cell : find_crossing_cells(lattice_)) {
+        complexity.complex.insert(cell);
+        complexity.tangled.insert(cell);
+      }
+    }
     for (const Coord& cell : complexity.tangled.cells()) marked_.insert(cell);
     report_.complex_cells = complexity.complex.cells().size();
     report_.tangled_cells = complexity.tangled.cells().size();
-    for (const Coord& cell : find_deep_cells(cuts_, complexity.near_sign_change, small_)) {
-      marked_.insert(cell);
-      ++report_.deep_cells;
-    }
+    const std::vector<Coord> deep = find_deep_cells(cuts_, complexity.near_sign_change, small_);
+    for (const Coord& cell : deep) marked_.insert(cell);
+    report_.deep_cells = deep.size();
     initial_cells_ = marked_.cells().size();
+    if (record_ != nullptr) record_causes(complexity, deep);
+  }
+
+  void record_causes(const CellComplexity& complexity, const std::vector<Coord>& deep) {
+    record_->cell_size = lattice_.h();
+    CellSet flagged;
+    for (const Coord& cell : request_.flagged_cells) flagged.insert(cell);
+    record_->flagged = flagged.sorted();
+    record_->complex = complexity.complex.sorted();
+    record_->tangled = complexity.tangled.sorted();
+    record_->deep = deep;
+    record_->changed_nodes = gamma_.changed();
+    std::sort(record_->changed_nodes.begin(), record_->changed_nodes.end());
+  }
+
+  void record_marked() {
+    record_->marked = marked_.sorted();
+    record_->front.clear();
+    for (const Coord& cell : record_->marked) {
+      if (is_at_front(cell)) record_->front.push_back(cell);
+    }
+  }
+
+  /// Whether the mesh was cut at a face of a marked cell.
+  bool is_at_front(const Coord& cell) {
+    for (int face = 0; face < kCellFaces; ++face) {
+      if (!marked_.contains(cell_beyond(cell, face)) && !tracer_.paths_on(face_of(cell, face)).paths.empty())
+        return true;
+    }
+    return false;
   }
 
   /// Cuts, fills and checks with the cells that are marked now.
@@ -94,6 +131,7 @@ class Remesher {
     TriangleMesh result = mesh_;
     apply(patch, result);
     if (!is_sound(result)) return false;
+    if (record_ != nullptr) record_marked();
     mesh_ = std::move(result);
     report_.removed_triangles = patch.removed.size();
     report_.new_triangles = patch.triangles.size();
@@ -193,6 +231,7 @@ class Remesher {
   TriangleMesh& mesh_;
   const MeshLattice& lattice_;
   const RemeshingRequest& request_;
+  TopologyCells* record_;
   GammaNodes gamma_;
   TriangleCuts cuts_;
   FaceTracer tracer_;
@@ -208,7 +247,8 @@ class Remesher {
 
 }  // namespace
 
-RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request) {
+RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
+                       TopologyCells* record) {
   if (request.nodes.size() != request.gamma.size()) {
     throw MeshError(fmt::format("re-meshing was given {} nodes of Γ but {} values; each node needs one",
                                 request.nodes.size(), request.gamma.size()));
@@ -219,7 +259,7 @@ RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const Rem
         "{} and {}; make the lattice anew after every change of the mesh",
         lattice.positions().size(), lattice.triangles().size(), mesh.vertex_count(), mesh.triangle_count()));
   }
-  return Remesher(mesh, lattice, request).run();
+  return Remesher(mesh, lattice, request, record).run();
 }
 
 }  // namespace particle_surface_tracker

@@ -65,14 +65,15 @@ bool meets_link_condition(const EditableSurface& surface, std::uint32_t half_edg
 }
 
 bool has_no_duplicate_triangle(const PlannedPatch& patch) {
-  for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
-    for (std::size_t j = i + 1; j < patch.triangles.size(); ++j) {
-      const Triangle& a = patch.triangles[i].vertices;
-      const Triangle& b = patch.triangles[j].vertices;
-      if (std::is_permutation(a.begin(), a.end(), b.begin())) return false;
-    }
+  // A fan that fills a large cell can have thousands of triangles around one vertex.
+  std::vector<Triangle> sorted;
+  sorted.reserve(patch.triangles.size());
+  for (const PatchTriangle& triangle : patch.triangles) {
+    sorted.push_back(triangle.vertices);
+    std::sort(sorted.back().begin(), sorted.back().end());
   }
-  return true;
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
 bool has_no_degenerate_triangle(const PlannedPatch& patch) {

@@ -119,6 +119,37 @@ TEST(Remeshing, MakesRandomCellsAnew) {
   EXPECT_LT(inverted, all / 1000);
 }
 
+TEST(Remeshing, MakesCellsAnewInWhichTrianglesCrossIfAsked) {
+  const double h = 0.25;
+  TriangleMesh before = test::make_sphere({0.03, -0.02, 0.01}, 1.0, 6);
+  // The vertices well inside one cell are thrown about.
+  const Coord crumpled(3, 1, 1);
+  for (std::uint32_t v = 0; v < before.vertex_count(); ++v) {
+    Vec3f& p = before.positions()[v];
+    const Vec3d place = p.cast<double>() / h - Vec3d(crumpled.x() + 0.5, crumpled.y() + 0.5, crumpled.z() + 0.5);
+    if (place.cwiseAbs().maxCoeff() > 0.3) continue;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      p[axis] += static_cast<float>(0.2 * h * test::hash_noise(1, static_cast<std::int32_t>(v), 0, 0, axis));
+    }
+  }
+  ASSERT_GT(test::count_self_intersecting_triangles(before.positions(), before.triangles()), 0u);
+
+  TriangleMesh mesh = before;
+  EXPECT_FALSE(remesh_at(mesh, h).changed());
+  expect_same(mesh, before);
+
+  RemeshingRequest request;
+  request.remesh_crossings = true;
+  const RemeshingReport report = remesh_at(mesh, h, request);
+  expect_sound(mesh);
+  EXPECT_GE(report.tangled_cells, 1u);
+  EXPECT_LE(report.remeshed_cells, 8u);
+  EXPECT_EQ(test::count_self_intersecting_triangles(mesh.positions(), mesh.triangles()), 0u);
+
+  TriangleMesh smooth = test::make_sphere({0.03, -0.02, 0.01}, 1.0, 5);
+  EXPECT_FALSE(remesh_at(smooth, h, request).changed());
+}
+
 TEST(Remeshing, MergesTwoSpheres) {
   const double distance = 1.5;
   TriangleMesh mesh =

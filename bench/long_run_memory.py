@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Whether memory grows over 1,000 frames: two_drops forth and back, many times. track_bag must be in PATH.
+
+Up to frame 3 the drops have not met, so the mesh stays the same and memory should. With --turn 39 they merge and come
+apart every time; the mesh then grows, and memory with it.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+
+from rosbags.rosbag1 import Reader, Writer
+from rosbags.typesys import Stores, get_typestore
+
+LARGEST_GROWTH = 0.01  # Of the peak, from frame 250 to the last.
+
+
+def write_loop(source, target, turn, frames):
+    """A bag that plays the first frames of another one forth and back."""
+    types = get_typestore(Stores.ROS1_NOETIC)
+    with Reader(source) as reader:
+        clouds = [types.deserialize_ros1(data, connection.msgtype) for connection, _, data in reader.messages()][:turn + 1]
+    way = clouds + clouds[-2:0:-1]
+    with Writer(target) as writer:
+        connection = writer.add_connection("/particles", "sensor_msgs/msg/PointCloud2", typestore=types)
+        for n in range(frames):
+            cloud = way[n % len(way)]
+            cloud.header.stamp.sec, cloud.header.stamp.nanosec = 1000 + n // 60, n % 60 * 16666667
+            time = cloud.header.stamp.sec * 10**9 + cloud.header.stamp.nanosec
+            writer.write(connection, time, types.serialize_ros1(cloud, "sensor_msgs/msg/PointCloud2"))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=pathlib.Path, required=True, help="folder with two_drops.bag, .ply and .json")
+    parser.add_argument("--frames", type=int, default=1000, help="how many frames (default 1000)")
+    parser.add_argument("--turn", type=int, default=3, help="frame at which it turns back (default 3)")
+    arguments = parser.parse_args()
+    facts = json.loads((arguments.data / "two_drops.json").read_text())
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        write_loop(arguments.data / "two_drops.bag", folder / "loop.bag", arguments.turn, arguments.frames)
+        subprocess.run(["track_bag", "--bag", folder / "loop.bag", "--mesh", arguments.data / "two_drops.ply", "--spacing",
+                        repr(facts["r_m"]), "--out", folder, "--format", "none", "--threads", "2", "--quiet",
+                        "--report", folder / "report.jsonl"], check=True, stdout=subprocess.DEVNULL)
+        lines = [json.loads(line) for line in (folder / "report.jsonl").read_text().splitlines()]
+    peaks = [line["peak_rss_bytes"] / 2**20 for line in lines]
+    triangles = [line["triangles"] for line in lines]
+    print(f"two_drops to frame {arguments.turn} and back, {len(lines)} frames:")
+    for frame in sorted({len(lines) * k // 10 for k in range(1, 10)} | {len(lines) - 1}):
+        print(f"  to frame {frame:>4}: peak memory {peaks[frame]:6.1f} MiB, most triangles {max(triangles[:frame + 1]):,}")
+    growth = peaks[-1] / peaks[len(lines) // 4] - 1
+    print(f"growth from frame {len(lines) // 4} on: {100 * growth:.2f} % (at most {100 * LARGEST_GROWTH:g} %): "
+          f"{'met' if growth <= LARGEST_GROWTH else 'NOT MET'}\n")
+
+
+if __name__ == "__main__":
+    main()
