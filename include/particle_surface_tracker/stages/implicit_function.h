@@ -8,7 +8,7 @@
 
 namespace particle_surface_tracker {
 
-/// The cell size that compute_implicit_surface() wants its particle grid to have [m]: the largest multiple of Δx_φ that
+/// The cell size that evaluate_implicit_function() wants its particle grid to have [m]: the largest multiple of Δx_φ that
 /// is not above r (or Δx_φ itself, if that is larger).
 double implicit_function_cell_size(const Parameters& parameters);
 
