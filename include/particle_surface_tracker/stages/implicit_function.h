@@ -8,8 +8,8 @@
 
 namespace particle_surface_tracker {
 
-/// The cell size that evaluate_implicit_function() wants its particle grid to have [m]: the largest multiple of Δx_φ that
-/// is not above r (or Δx_φ itself, if that is larger).
+/// The cell size that evaluate_implicit_function() wants its particle grid to have [m]: the largest multiple of Δx_φ
+/// that is not above r (or Δx_φ itself, if that is larger).
 double implicit_function_cell_size(const Parameters& parameters);
 
 /// φ̃ at the nodes of every cell that its zero level passes through (Sec. 5.1; Solenthaler et al. 2007, with the reading
