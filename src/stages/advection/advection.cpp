@@ -40,7 +40,7 @@ std::vector<Vec3f> advect(const std::vector<Vec3f>& vertices, const ParticleMoti
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size()), [&](const auto& range) {
     VertexAdvection& advection = advections.local();
     for (std::size_t t = range.begin(); t != range.end(); ++t) {
-      advection.advect_tile(tiles[t], vertex_grid.index(), vertices, advected);
+      advection.advect_tile(vertex_grid, tiles[t], advected);
     }
   });
   return advected;

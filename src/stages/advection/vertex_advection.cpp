@@ -78,17 +78,19 @@ double VertexAdvection::cell_size(const ParticleGrid& particles) {
   return kCellWidth * particles.cell_size();
 }
 
-void VertexAdvection::advect_tile(const ParticleGrid::Tile& tile, const std::vector<std::uint32_t>& order,
-                                  const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected) {
-  const Vec3f origin = vertices[order[tile.begin.front()]];
+void VertexAdvection::advect_tile(const ParticleGrid& vertices, const ParticleGrid::Tile& tile,
+                                  std::vector<Vec3f>& advected) {
+  const auto vertex_at = [&](std::uint32_t n) { return Vec3f(vertices.x()[n], vertices.y()[n], vertices.z()[n]); };
+  const Vec3f origin = vertex_at(tile.begin.front());
   pending_.clear();
   ParticleGrid::for_each_cell(tile, [&](const LatticeCoord& cell, std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t n = begin; n < end; ++n) {
       // In place: a whole object copied right after its parts were written would have to wait for them.
       Pending& pending = pending_.emplace_back();
-      pending.vertex = order[n];
+      pending.index = vertices.index()[n];
       pending.cell = cell;
-      pending.position = vertices[order[n]] - origin;
+      pending.vertex = vertex_at(n);
+      pending.position = pending.vertex - origin;
     }
   });
   int most_cells = kMostCells;
@@ -100,10 +102,10 @@ void VertexAdvection::advect_tile(const ParticleGrid::Tile& tile, const std::vec
       evaluate(group, radius);
       for (std::size_t n = group.begin; n < group.end; ++n) {
         Pending& pending = pending_[n];
-        const Vec3d vertex = vertices[pending.vertex].cast<double>();
+        const Vec3d vertex = pending.vertex.cast<double>();
         Vec3d displacement;
         if (settle(static_cast<int>(n - group.begin), radius, vertex, pending, displacement)) {
-          advected[pending.vertex] = (vertex + displacement).cast<float>();
+          advected[pending.index] = (vertex + displacement).cast<float>();
         } else {
           pending_[kept++] = pending;
         }

@@ -19,18 +19,18 @@ class VertexAdvection {
   static double cell_size(const ParticleGrid& particles);
 
   /// Moves the vertices of one tile.
-  /// \param tile of a grid with cells of cell_size().
-  /// \param order the sorted vertices of that grid, as indices into `vertices`.
-  /// \param advected receives the new positions [m] at the same places.
-  void advect_tile(const ParticleGrid::Tile& tile, const std::vector<std::uint32_t>& order,
-                   const std::vector<Vec3f>& vertices, std::vector<Vec3f>& advected);
+  /// \param vertices sorted into cells of cell_size().
+  /// \param tile of that grid.
+  /// \param advected receives the new positions [m], in the order that the vertices had.
+  void advect_tile(const ParticleGrid& vertices, const ParticleGrid::Tile& tile, std::vector<Vec3f>& advected);
 
  private:
   /// A vertex whose displacement is not known yet.
   struct Pending {
-    std::uint32_t vertex;
+    std::uint32_t index;
     bool has_average = false;
     LatticeCoord cell;
+    Vec3f vertex;                   // [m]
     Vec3f position;                 // relative to the origin of the tile [m]
     Vec3d average = Vec3d::Zero();  // its displacement by `average` [m]
   };

@@ -42,6 +42,9 @@ bool has_bit(const LeafWords& words, const openvdb::Coord& place) {
   return (words[place.x()] >> (kWidth * place.y() + place.z()) & 1) != 0;
 }
 
+/// Nodes that one search looks for the distances of, at least.
+constexpr std::size_t kFarNodesAtOnce = 1000;
+
 /// Scratch of one thread.
 struct Workplace {
   std::vector<TriangleShape> triangles;  ///< Of the leaf.
@@ -115,24 +118,46 @@ class DistanceScan {
     }
   }
 
-  /// Looks for the distances that are too large for the scan.
-  void search_far() {
+  /// A node that the scan did not reach.
+  struct FarNode {
+    std::uint32_t leaf;
+    int place;  ///< 64 x + 8 y + z.
+  };
+
+  std::vector<FarNode> list_far_nodes() const {
     const auto resolved = static_cast<float>(height_ * height_);
-    tbb::enumerable_thread_specific<ClosestPlaceSearch> searches([&] { return ClosestPlaceSearch(cells_, reach_); });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves_.size(), 16), [&](const auto& range) {
-      for (std::size_t n = range.begin(); n != range.end(); ++n) {
-        const NodeMasks::Leaf& wanted = wanted_.leaves()[n];
-        float* values = leaves_[n]->buffer().data();
-        const LeafWords near = nodes_at_most(values, resolved);
-        for (int x = 0; x < kWidth; ++x) {
-          for_each_bit(wanted.words[x] & ~near[x], [&](int bit) {
-            const Vec3d node(wanted.origin.x() + x, wanted.origin.y() + (bit >> 3), wanted.origin.z() + (bit & 7));
-            float& squared = values[64 * x + bit];
-            squared = std::min(squared, searches.local().find(node, squared).squared_distance);
-          });
-        }
-      }
+    std::vector<LeafWords> far(leaves_.size());
+    tbb::parallel_for(std::size_t{0}, leaves_.size(), [&](std::size_t n) {
+      const LeafWords near = nodes_at_most(leaves_[n]->buffer().data(), resolved);
+      for (int x = 0; x < kWidth; ++x) far[n][x] = wanted_.leaves()[n].words[x] & ~near[x];
     });
+    std::vector<FarNode> nodes;
+    for (std::uint32_t n = 0; n < far.size(); ++n) {
+      for (int x = 0; x < kWidth; ++x) {
+        for_each_bit(far[n][x], [&](int bit) { nodes.push_back({n, 64 * x + bit}); });
+      }
+    }
+    return nodes;
+  }
+
+  /// Looks for the distances that are too large for the scan. Nodes close together look at the same cells, which a
+  /// search prepares once: mostly there are so few that one search should have them all.
+  void search_far() {
+    const std::vector<FarNode> nodes = list_far_nodes();
+    tbb::enumerable_thread_specific<ClosestPlaceSearch> searches([&] { return ClosestPlaceSearch(cells_, reach_); });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, nodes.size(), kFarNodesAtOnce),
+        [&](const auto& range) {
+          ClosestPlaceSearch& search = searches.local();
+          for (std::size_t n = range.begin(); n != range.end(); ++n) {
+            const auto [leaf, place] = nodes[n];
+            const openvdb::Coord& origin = wanted_.leaves()[leaf].origin;
+            const Vec3d node(origin.x() + (place >> 6), origin.y() + (place >> 3 & 7), origin.z() + (place & 7));
+            float& squared = leaves_[leaf]->buffer().data()[place];
+            squared = std::min(squared, search.find(node, squared).squared_distance);
+          }
+        },
+        tbb::simple_partitioner());
   }
 
   const SurfaceCells& cells_;
