@@ -46,6 +46,11 @@ void expect_whole(const std::map<std::string, std::string>& left, const std::map
   }
 }
 
+/// Enough for the test to have tried something; where a machine is so busy that starting takes most of the time of a
+/// run, few of the first twenty runs have a checkpoint when they are killed.
+constexpr int kLeastKills = 11;
+constexpr int kLeastResumed = 6;
+
 TEST(KillAndResume, TwentyTimesAtRandomMoments) {
   const KilledRun runs;
   const auto begin = std::chrono::steady_clock::now();
@@ -62,7 +67,7 @@ TEST(KillAndResume, TwentyTimesAtRandomMoments) {
   std::uniform_int_distribution<int> interval(1, 5);
   int kills = 0;
   int resumed = 0;
-  for (int n = 0; n < 20; ++n) {
+  for (int n = 0; n < 20 || (n < 200 && (kills < kLeastKills || resumed < kLeastResumed)); ++n) {
     const std::string name = "killed_" + std::to_string(n);
     const std::string every = std::to_string(interval(random));
     for (int attempt = 0;; ++attempt) {
@@ -85,8 +90,8 @@ TEST(KillAndResume, TwentyTimesAtRandomMoments) {
     fs::remove_all(runs.path(name));
   }
   std::cout << kills << " kills, " << resumed << " times gone on\n";
-  EXPECT_GT(kills, 10);
-  EXPECT_GT(resumed, 5);
+  EXPECT_GE(kills, kLeastKills);
+  EXPECT_GE(resumed, kLeastResumed);
 }
 
 TEST(KillAndResume, WithoutCheckpointsTheBagSoFarCanBeRead) {
