@@ -2,31 +2,22 @@
 
 #include <cmath>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 
+#include "support/cgal_mesh.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using test::CgalMesh;
+using test::to_cgal;
 using test::TortureMesh;
-
-CgalMesh to_cgal(const TriangleMesh& mesh) {
-  CgalMesh result;
-  for (const Vec3f& p : mesh.positions()) result.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z()));
-  const auto vertex = [](std::uint32_t v) { return CgalMesh::Vertex_index(v); };
-  for (const auto& [a, b, c] : mesh.triangles()) result.add_face(vertex(a), vertex(b), vertex(c));
-  return result;
-}
 
 /// Volume of the union of two meshes that do not cross themselves, by CGAL.
 double union_volume(const TriangleMesh& first, const TriangleMesh& second) {

@@ -3,12 +3,11 @@
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
+#include "support/cgal_mesh.h"
 #include "support/shapes.h"
 #include "support/torture_meshes.h"
 
@@ -16,16 +15,8 @@ namespace particle_surface_tracker {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-CgalMesh to_cgal(const TriangleMesh& mesh) {
-  CgalMesh result;
-  for (const Vec3f& p : mesh.positions()) result.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z()));
-  const auto vertex = [](std::uint32_t v) { return CgalMesh::Vertex_index(v); };
-  for (const auto& [a, b, c] : mesh.triangles()) result.add_face(vertex(a), vertex(b), vertex(c));
-  return result;
-}
+using test::CgalMesh;
+using test::to_cgal;
 
 /// Of two bodies that do not cross themselves: the samples lie on CGAL's union, but for the offset and its rounding,
 /// and nowhere is one missing.
@@ -38,12 +29,12 @@ void expect_union_of_cgal(const TriangleMesh& first, const TriangleMesh& second)
   const test::UnionReference reference(test::joined({first, second}), kSpacing, 1e-4);
   EXPECT_NEAR(reference.area(), PMP::area(both), 0.01 * PMP::area(both));
   using Primitive = CGAL::AABB_face_graph_triangle_primitive<CgalMesh>;
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(faces(both).first, faces(both).second, both);
+  CGAL::AABB_tree<CGAL::AABB_traits<test::CgalKernel, Primitive>> tree(faces(both).first, faces(both).second, both);
   for (const Vec3d& p : reference.samples()) {
-    ASSERT_LT(tree.squared_distance(Kernel::Point_3(p.x(), p.y(), p.z())), 4e-8);
+    ASSERT_LT(tree.squared_distance(test::CgalKernel::Point_3(p.x(), p.y(), p.z())), 4e-8);
   }
   for (const auto vertex : vertices(both)) {
-    const Kernel::Point_3& p = both.point(vertex);
+    const test::CgalKernel::Point_3& p = both.point(vertex);
     ASSERT_LT(reference.distance(Vec3d(p.x(), p.y(), p.z())), 1.5 * kSpacing);
   }
 }
