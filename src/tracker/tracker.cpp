@@ -265,6 +265,7 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     state_->advect_vertices(*next, frame, report, timer);
     // By what the liquid does, not by what the projection does: at details as thin as r the latter is not rigid.
     if (state_->parameters.stretched_detail == StretchedDetail::kThin) {
+      timer.begin("stretched_detail");
       thin_stretched_detail(next->mesh, state_->tracked->mesh.positions());
     }
     next->surface = surface != nullptr ? std::move(surface) : make_implicit_surface(frame, state_->parameters, timer);

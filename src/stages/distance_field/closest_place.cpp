@@ -24,6 +24,9 @@ constexpr float kSlack = 1e-3f;
 /// Cells are not looked at for the sake of less than this: far away, many are about equally near [cells].
 constexpr float kSmallestGain = 0.01f;
 
+/// Half the diagonal of a cell, and a little for rounding [cells].
+constexpr float kCellRadius = 0.8661f + kSlack;
+
 openvdb::Vec3d to_openvdb(const Vec3d& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -46,29 +49,39 @@ ClosestPlace ClosestPlaceSearch::find(const Vec3d& position, float squared_limit
   });
   for (const NearLeaf& near : near_) {
     if (near.squared_distance >= closest.squared_distance) break;
-    const std::vector<Disc>& discs = discs_of(*near.leaf);
-    std::uint32_t nearest = 0;
-    float nearest_squared = 1e30f;
-    for (std::uint32_t n = 0; n < discs.size(); ++n) {
-      const float squared = (near.position - discs[n].center).squaredNorm();
-      if (squared < nearest_squared) {
-        nearest_squared = squared;
-        nearest = n;
-      }
-    }
-    const auto measure_within = [&](std::uint32_t n) {
-      const Disc& disc = discs[n];
-      const Vec3f offset = near.position - disc.center;
-      const float within = std::sqrt(closest.squared_distance) - kSmallestGain;
-      if (offset.squaredNorm() > (within + disc.radius) * (within + disc.radius)) return;
-      if (distance_to_disc(disc, offset) <= within) measure(near.leaf->begin + n, position, closest);
-    };
-    measure_within(nearest);
-    for (std::uint32_t n = 0; n < discs.size(); ++n) {
-      if (n != nearest) measure_within(n);
-    }
+    search_leaf(near, position, closest);
   }
   return closest;
+}
+
+void ClosestPlaceSearch::search_leaf(const NearLeaf& near, const Vec3d& position, ClosestPlace& closest) {
+  std::vector<Disc>& discs = discs_of(*near.leaf);
+  const auto measure_within = [&](std::size_t n) {
+    Disc& disc = discs[n];
+    const float within = std::sqrt(closest.squared_distance) - kSmallestGain;
+    const auto is_within = [&](const Vec3f& center, float radius) {
+      return (near.position - center).squaredNorm() <= (within + radius) * (within + radius);
+    };
+    if (!is_within(disc.cell_center, kCellRadius)) return;
+    const std::uint32_t cell = near.leaf->begin + static_cast<std::uint32_t>(n);
+    if (disc.height < 0.0f) make_disc(cell, near.leaf->origin, disc);
+    if (!is_within(disc.center, disc.radius)) return;
+    if (distance_to_disc(disc, near.position - disc.center) <= within) measure(cell, position, closest);
+  };
+  // What has been found lets others be passed over, so the most promising is the first.
+  std::size_t nearest = 0;
+  float nearest_squared = std::numeric_limits<float>::max();
+  for (std::size_t n = 0; n < discs.size(); ++n) {
+    const float squared = (near.position - discs[n].cell_center).squaredNorm();
+    if (squared < nearest_squared) {
+      nearest_squared = squared;
+      nearest = n;
+    }
+  }
+  measure_within(nearest);
+  for (std::size_t n = 0; n < discs.size(); ++n) {
+    if (n != nearest) measure_within(n);
+  }
 }
 
 void ClosestPlaceSearch::find_leaves(const openvdb::Coord& leaf_origin) {
@@ -85,16 +98,19 @@ void ClosestPlaceSearch::find_leaves(const openvdb::Coord& leaf_origin) {
   }
 }
 
-const std::vector<ClosestPlaceSearch::Disc>& ClosestPlaceSearch::discs_of(const SurfaceCells::Leaf& leaf) {
+std::vector<ClosestPlaceSearch::Disc>& ClosestPlaceSearch::discs_of(const SurfaceCells::Leaf& leaf) {
   std::vector<Disc>& discs = discs_[&leaf - cells_.leaves().data()];
-  discs.reserve(leaf.end - leaf.begin);
-  for (std::uint32_t c = leaf.begin + static_cast<std::uint32_t>(discs.size()); c != leaf.end; ++c) {
-    discs.push_back(make_disc(c, leaf.origin));
+  if (!discs.empty()) return discs;
+  const std::vector<CutCell>& cut = cells_.surface().triangulation.cells;
+  discs.resize(leaf.end - leaf.begin);
+  for (std::size_t n = 0; n < discs.size(); ++n) {
+    const openvdb::Coord corner = cut[leaf.begin + n].origin - leaf.origin;
+    discs[n].cell_center = Eigen::Vector3i(corner.x(), corner.y(), corner.z()).cast<float>() + Vec3f::Constant(0.5f);
   }
   return discs;
 }
 
-ClosestPlaceSearch::Disc ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const {
+void ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin, Disc& disc) const {
   const SurfaceTriangulation& mesh = cells_.surface().triangulation;
   std::array<Quad, kMostCorners> corners;
   int count = 0;
@@ -113,13 +129,15 @@ ClosestPlaceSearch::Disc ClosestPlaceSearch::make_disc(std::uint32_t cell, const
   const Quad center = 0.5f * (low + high);
   const Vec3f mean = to_vector(normals.lower + normals.upper);
   const float length = mean.norm();
-  Disc disc = {to_vector(center), length > 0.0f ? Vec3f(mean / length) : Vec3f::UnitX(), 0.0f, kSlack};
+  disc.center = to_vector(center);
+  disc.normal = length > 0.0f ? Vec3f(mean / length) : Vec3f::UnitX();
+  disc.radius = 0.0f;
+  disc.height = kSlack;
   for (int i = 0; i < count; ++i) {
     const Vec3f offset = to_vector(corners[i] - center);
     disc.radius = std::max(disc.radius, offset.norm() + kSlack);
     disc.height = std::max(disc.height, std::abs(offset.dot(disc.normal)) + kSlack);
   }
-  return disc;
 }
 
 /// The least distance that a position can have to the triangles.

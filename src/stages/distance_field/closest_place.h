@@ -28,12 +28,14 @@ class ClosestPlaceSearch {
   ClosestPlace find(const Vec3d& position, float squared_limit = std::numeric_limits<float>::max());
 
  private:
-  /// Where the triangles of a cell are; coordinates in cells, relative to the corner of its leaf.
+  /// Where the triangles of a cell are; coordinates in cells, relative to the corner of its leaf. Most cells are passed
+  /// over for the ball around the cell, which costs next to nothing, and their disc is never made.
   struct Disc {
+    Vec3f cell_center;
+    float height = -1.0f;  // the triangles are within this of the disc's plane; negative: the disc is not made yet
     Vec3f center;
+    float radius;  // they are within this of the center
     Vec3f normal;  // unit, a mean
-    float radius;  // the triangles are within this of the center
-    float height;  // they are within this of the plane through the center across the normal
   };
 
   struct NearLeaf {
@@ -43,8 +45,9 @@ class ClosestPlaceSearch {
   };
 
   void find_leaves(const openvdb::Coord& leaf_origin);
-  const std::vector<Disc>& discs_of(const SurfaceCells::Leaf& leaf);
-  Disc make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const;
+  std::vector<Disc>& discs_of(const SurfaceCells::Leaf& leaf);
+  void search_leaf(const NearLeaf& near, const Vec3d& position, ClosestPlace& closest);
+  void make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin, Disc& disc) const;
   static float distance_to_disc(const Disc& disc, const Vec3f& offset);
   void measure(std::uint32_t cell, const Vec3d& position, ClosestPlace& closest) const;
 
