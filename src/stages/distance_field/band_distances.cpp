@@ -18,8 +18,6 @@ namespace particle_surface_tracker {
 
 namespace {
 
-using OutputLeaf = openvdb::FloatTree::LeafNodeType;
-
 constexpr int kWidth = 8;
 
 /// Up to here cells lower the distances of the nodes around them; the few nodes farther away look for themselves
@@ -50,20 +48,18 @@ struct Workplace {
   std::vector<TriangleShape> triangles;  ///< Of the leaf.
   CellShape shape;
   NodeList list;
-  std::array<float, 512> unwanted{};  ///< Stands for every leaf of which no node is wanted.
 };
 
 class DistanceScan {
  public:
   DistanceScan(const SurfaceCells& cells, const NodeMasks& wanted, double reach)
-      : cells_(cells), wanted_(wanted), reach_(reach), height_(std::min(reach, kScanHeight)) {}
+      : cells_(cells),
+        wanted_(wanted),
+        reach_(reach),
+        height_(std::min(reach, kScanHeight)),
+        squared_(wanted.leaves().size()) {}
 
-  std::vector<DistanceLeaf> run() {
-    leaves_.resize(wanted_.leaves().size());
-    tbb::parallel_for(std::size_t{0}, leaves_.size(), [&](std::size_t n) {
-      leaves_[n] = std::make_unique<OutputLeaf>(wanted_.leaves()[n].origin, SignedDistanceField::absent, false);
-      leaves_[n]->buffer().data();
-    });
+  SquaredDistances run() {
     // Where few nodes are wanted, most cells have none of them around.
     if (4 * wanted_.leaves().size() < cells_.leaves().size()) {
       scanned_ = wanted_;
@@ -71,7 +67,7 @@ class DistanceScan {
     }
     scan_near();
     if (reach_ > height_) search_far();
-    return std::move(leaves_);
+    return std::move(squared_);
   }
 
  private:
@@ -90,18 +86,18 @@ class DistanceScan {
     }
   }
 
-  void scan_leaf(const SurfaceCells::Leaf& leaf, Workplace& workplace) const {
+  void scan_leaf(const SurfaceCells::Leaf& leaf, Workplace& workplace) {
     const std::uint32_t scanned = scanned_ ? scanned_->find(leaf.origin) : LeafIndex::none;
     if (scanned_ && scanned == LeafIndex::none) return;
     LeafTargets targets;
+    targets.squared = squared_.data();
     bool is_wanted = false;
     for (int n = 0; n < LeafTargets::size; ++n) {
-      targets.leaf[n] = workplace.unwanted.data();
-      if ((n >> 2 & 3) == 3 || (n & 3) == 3) continue;
-      const std::uint32_t number = wanted_.find(
-          leaf.origin.offsetBy(kWidth * ((n >> 4) - 1), kWidth * ((n >> 2 & 3) - 1), kWidth * ((n & 3) - 1)));
+      targets.begin[n] = LeafTargets::unwanted;
+      const std::uint32_t number =
+          wanted_.find(leaf.origin.offsetBy(kWidth * (n / 9 - 1), kWidth * (n / 3 % 3 - 1), kWidth * (n % 3 - 1)));
       if (number == LeafIndex::none) continue;
-      targets.leaf[n] = leaves_[number]->buffer().data();
+      targets.begin[n] = static_cast<std::int32_t>(number * SquaredDistances::leaf_size);
       is_wanted = true;
     }
     if (!is_wanted) return;
@@ -126,9 +122,9 @@ class DistanceScan {
 
   std::vector<FarNode> list_far_nodes() const {
     const auto resolved = static_cast<float>(height_ * height_);
-    std::vector<LeafWords> far(leaves_.size());
-    tbb::parallel_for(std::size_t{0}, leaves_.size(), [&](std::size_t n) {
-      const LeafWords near = nodes_at_most(leaves_[n]->buffer().data(), resolved);
+    std::vector<LeafWords> far(wanted_.leaves().size());
+    tbb::parallel_for(std::size_t{0}, far.size(), [&](std::size_t n) {
+      const LeafWords near = nodes_at_most(squared_.leaf(n), resolved);
       for (int x = 0; x < kWidth; ++x) far[n][x] = wanted_.leaves()[n].words[x] & ~near[x];
     });
     std::vector<FarNode> nodes;
@@ -153,7 +149,7 @@ class DistanceScan {
             const auto [leaf, place] = nodes[n];
             const openvdb::Coord& origin = wanted_.leaves()[leaf].origin;
             const Vec3d node(origin.x() + (place >> 6), origin.y() + (place >> 3 & 7), origin.z() + (place & 7));
-            float& squared = leaves_[leaf]->buffer().data()[place];
+            float& squared = squared_.leaf(leaf)[place];
             squared = std::min(squared, search.find(node, squared).squared_distance);
           }
         },
@@ -167,12 +163,12 @@ class DistanceScan {
   std::optional<NodeMasks> scanned_;  ///< The cells that matter, unless nearly all do.
   CellKernel kernel_ = active_cell_kernel();
   const TriangleKernel& triangle_kernel_ = active_triangle_kernel();
-  std::vector<DistanceLeaf> leaves_;
+  SquaredDistances squared_;
 };
 
 }  // namespace
 
-std::vector<DistanceLeaf> measure_distances(const SurfaceCells& cells, const NodeMasks& wanted, double reach) {
+SquaredDistances measure_distances(const SurfaceCells& cells, const NodeMasks& wanted, double reach) {
   return DistanceScan(cells, wanted, reach).run();
 }
 

@@ -23,11 +23,13 @@ struct NodeList {
   int size = 0;
 };
 
-/// Where the squared distances of the nodes around a leaf are [cells²]: in leaves of 8³, z fastest. The leaf (i, j, k)
-/// from the one in the middle is the entry of 16 (i + 1) + 4 (j + 1) + k + 1.
+/// Where the squared distances of the nodes around a leaf are [cells²]: in leaves of 8³, z fastest, all in one array.
+/// The leaf (i, j, k) from the one in the middle begins at the entry of 9 (i + 1) + 3 (j + 1) + k + 1.
 struct LeafTargets {
-  static constexpr int size = 16 * 3;
-  float* leaf[size];
+  static constexpr int size = 3 * 3 * 3;
+  static constexpr std::int32_t unwanted = -1;  ///< Where no node of a leaf is wanted.
+  alignas(64) std::int32_t begin[32];
+  float* squared;
 };
 
 /// Lowers the squared distances of the nodes in a cell's tube to those to the cell's triangles.

@@ -55,31 +55,30 @@ ClosestPlace ClosestPlaceSearch::find(const Vec3d& position, float squared_limit
 }
 
 void ClosestPlaceSearch::search_leaf(const NearLeaf& near, const Vec3d& position, ClosestPlace& closest) {
-  std::vector<Disc>& discs = discs_of(*near.leaf);
+  LeafCells& cells = cells_of(*near.leaf);
+  const std::size_t count = cells.discs.size();
+  squared_.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const float x = near.position.x() - cells.x[n];
+    const float y = near.position.y() - cells.y[n];
+    const float z = near.position.z() - cells.z[n];
+    squared_[n] = x * x + y * y + z * z;
+  }
   const auto measure_within = [&](std::size_t n) {
-    Disc& disc = discs[n];
     const float within = std::sqrt(closest.squared_distance) - kSmallestGain;
-    const auto is_within = [&](const Vec3f& center, float radius) {
-      return (near.position - center).squaredNorm() <= (within + radius) * (within + radius);
-    };
-    if (!is_within(disc.cell_center, kCellRadius)) return;
+    const auto squared_within = [&](float radius) { return (within + radius) * (within + radius); };
+    if (squared_[n] > squared_within(kCellRadius)) return;
     const std::uint32_t cell = near.leaf->begin + static_cast<std::uint32_t>(n);
-    if (disc.height < 0.0f) make_disc(cell, near.leaf->origin, disc);
-    if (!is_within(disc.center, disc.radius)) return;
-    if (distance_to_disc(disc, near.position - disc.center) <= within) measure(cell, position, closest);
+    Disc& disc = cells.discs[n];
+    if (disc.height < 0.0f) disc = make_disc(cell, near.leaf->origin);
+    const Vec3f offset = near.position - disc.center;
+    if (offset.squaredNorm() > squared_within(disc.radius)) return;
+    if (distance_to_disc(disc, offset) <= within) measure(cell, position, closest);
   };
   // What has been found lets others be passed over, so the most promising is the first.
-  std::size_t nearest = 0;
-  float nearest_squared = std::numeric_limits<float>::max();
-  for (std::size_t n = 0; n < discs.size(); ++n) {
-    const float squared = (near.position - discs[n].cell_center).squaredNorm();
-    if (squared < nearest_squared) {
-      nearest_squared = squared;
-      nearest = n;
-    }
-  }
+  const auto nearest = static_cast<std::size_t>(std::min_element(squared_.begin(), squared_.end()) - squared_.begin());
   measure_within(nearest);
-  for (std::size_t n = 0; n < discs.size(); ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     if (n != nearest) measure_within(n);
   }
 }
@@ -98,19 +97,20 @@ void ClosestPlaceSearch::find_leaves(const openvdb::Coord& leaf_origin) {
   }
 }
 
-std::vector<ClosestPlaceSearch::Disc>& ClosestPlaceSearch::discs_of(const SurfaceCells::Leaf& leaf) {
-  std::vector<Disc>& discs = discs_[&leaf - cells_.leaves().data()];
-  if (!discs.empty()) return discs;
-  const std::vector<CutCell>& cut = cells_.surface().triangulation.cells;
-  discs.resize(leaf.end - leaf.begin);
-  for (std::size_t n = 0; n < discs.size(); ++n) {
-    const openvdb::Coord corner = cut[leaf.begin + n].origin - leaf.origin;
-    discs[n].cell_center = Eigen::Vector3i(corner.x(), corner.y(), corner.z()).cast<float>() + Vec3f::Constant(0.5f);
+ClosestPlaceSearch::LeafCells& ClosestPlaceSearch::cells_of(const SurfaceCells::Leaf& leaf) {
+  LeafCells& cells = leaf_cells_[&leaf - cells_.leaves().data()];
+  if (!cells.discs.empty()) return cells;
+  for (std::uint32_t c = leaf.begin; c != leaf.end; ++c) {
+    const openvdb::Coord corner = cells_.surface().triangulation.cells[c].origin - leaf.origin;
+    cells.x.push_back(static_cast<float>(corner.x()) + 0.5f);
+    cells.y.push_back(static_cast<float>(corner.y()) + 0.5f);
+    cells.z.push_back(static_cast<float>(corner.z()) + 0.5f);
   }
-  return discs;
+  cells.discs.resize(cells.x.size(), {Vec3f::Zero(), 0.0f, Vec3f::Zero(), -1.0f});
+  return cells;
 }
 
-void ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin, Disc& disc) const {
+ClosestPlaceSearch::Disc ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const {
   const SurfaceTriangulation& mesh = cells_.surface().triangulation;
   std::array<Quad, kMostCorners> corners;
   int count = 0;
@@ -129,15 +129,13 @@ void ClosestPlaceSearch::make_disc(std::uint32_t cell, const openvdb::Coord& lea
   const Quad center = 0.5f * (low + high);
   const Vec3f mean = to_vector(normals.lower + normals.upper);
   const float length = mean.norm();
-  disc.center = to_vector(center);
-  disc.normal = length > 0.0f ? Vec3f(mean / length) : Vec3f::UnitX();
-  disc.radius = 0.0f;
-  disc.height = kSlack;
+  Disc disc = {to_vector(center), 0.0f, length > 0.0f ? Vec3f(mean / length) : Vec3f::UnitX(), kSlack};
   for (int i = 0; i < count; ++i) {
     const Vec3f offset = to_vector(corners[i] - center);
     disc.radius = std::max(disc.radius, offset.norm() + kSlack);
     disc.height = std::max(disc.height, std::abs(offset.dot(disc.normal)) + kSlack);
   }
+  return disc;
 }
 
 /// The least distance that a position can have to the triangles.

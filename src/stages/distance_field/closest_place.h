@@ -19,7 +19,7 @@ class ClosestPlaceSearch {
  public:
   /// \param reach [cells].
   ClosestPlaceSearch(const SurfaceCells& cells, double reach)
-      : cells_(cells), reach_(reach), discs_(cells.leaves().size()) {}
+      : cells_(cells), reach_(reach), leaf_cells_(cells.leaves().size()) {}
 
   /// \param position [cells].
   /// \param squared_limit no place farther than this is looked for [cells²].
@@ -28,14 +28,18 @@ class ClosestPlaceSearch {
   ClosestPlace find(const Vec3d& position, float squared_limit = std::numeric_limits<float>::max());
 
  private:
-  /// Where the triangles of a cell are; coordinates in cells, relative to the corner of its leaf. Most cells are passed
-  /// over for the ball around the cell, which costs next to nothing, and their disc is never made.
+  /// Where the triangles of a cell are; coordinates in cells, relative to the corner of its leaf.
   struct Disc {
-    Vec3f cell_center;
-    float height = -1.0f;  // the triangles are within this of the disc's plane; negative: the disc is not made yet
     Vec3f center;
     float radius;  // they are within this of the center
     Vec3f normal;  // unit, a mean
+    float height;  // they are within this of the plane through the center across the normal; negative: not made yet
+  };
+
+  /// The cells of a leaf. Most are passed over for the ball around the cell, and their disc is never made.
+  struct LeafCells {
+    std::vector<float> x, y, z;  // centers of the cells
+    std::vector<Disc> discs;
   };
 
   struct NearLeaf {
@@ -45,9 +49,9 @@ class ClosestPlaceSearch {
   };
 
   void find_leaves(const openvdb::Coord& leaf_origin);
-  std::vector<Disc>& discs_of(const SurfaceCells::Leaf& leaf);
+  LeafCells& cells_of(const SurfaceCells::Leaf& leaf);
   void search_leaf(const NearLeaf& near, const Vec3d& position, ClosestPlace& closest);
-  void make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin, Disc& disc) const;
+  Disc make_disc(std::uint32_t cell, const openvdb::Coord& leaf_origin) const;
   static float distance_to_disc(const Disc& disc, const Vec3f& offset);
   void measure(std::uint32_t cell, const Vec3d& position, ClosestPlace& closest) const;
 
@@ -56,7 +60,8 @@ class ClosestPlaceSearch {
   openvdb::Coord around_{1, 1, 1};                // the leaf whose surroundings are known; no leaf begins here
   std::vector<const SurfaceCells::Leaf*> found_;  // in them
   std::vector<NearLeaf> near_;
-  std::vector<std::vector<Disc>> discs_;  // of the leaves met so far, by their number
+  std::vector<float> squared_;         // distances to the centers of a leaf's cells
+  std::vector<LeafCells> leaf_cells_;  // of the leaves met so far, by their number
 };
 
 }  // namespace particle_surface_tracker

@@ -43,7 +43,7 @@ LeafWords nodes_at_least_zero(const float* values) {
   return nodes_where(values, [](const __m128& four) { return _mm_cmpge_ps(four, _mm_setzero_ps()); });
 }
 
-void sign_values(const LeafWords& inside, const LeafWords& outside, float dx, float* values) {
+void sign_values(const float* squared, const LeafWords& inside, const LeafWords& outside, float dx, float* values) {
   const __m128 smallest = _mm_set1_ps(kSmallestSquared);
   const __m128 absent = _mm_set1_ps(SignedDistanceField::absent);
   const __m128 sign_bit = _mm_set1_ps(-0.0f);
@@ -52,7 +52,7 @@ void sign_values(const LeafWords& inside, const LeafWords& outside, float dx, fl
     const std::uint64_t negative = inside[n >> 6] >> (n & 63);
     const __m128 is_there = lanes_of(negative | outside[n >> 6] >> (n & 63));
     const __m128 sign = _mm_and_ps(lanes_of(negative), sign_bit);
-    const __m128 distance = _mm_mul_ps(_mm_sqrt_ps(_mm_max_ps(_mm_loadu_ps(values + n), smallest)), unit);
+    const __m128 distance = _mm_mul_ps(_mm_sqrt_ps(_mm_max_ps(_mm_loadu_ps(squared + n), smallest)), unit);
     _mm_storeu_ps(values + n,
                   _mm_or_ps(_mm_and_ps(is_there, _mm_or_ps(distance, sign)), _mm_andnot_ps(is_there, absent)));
   }

@@ -11,9 +11,10 @@ LeafWords nodes_at_most(const float* values, float limit);
 LeafWords nodes_at_least_zero(const float* values);
 
 /// From squared distances to signed ones, a leaf at a time.
-/// \param values [cells²], replaced by distances [m].
+/// \param squared [cells²].
 /// \param inside nodes that get negative ones.
 /// \param outside nodes that get positive ones; all others are absent.
-void sign_values(const LeafWords& inside, const LeafWords& outside, float dx, float* values);
+/// \param values the signed distances [m].
+void sign_values(const float* squared, const LeafWords& inside, const LeafWords& outside, float dx, float* values);
 
 }  // namespace particle_surface_tracker

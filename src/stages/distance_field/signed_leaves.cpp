@@ -1,5 +1,9 @@
 #include "signed_leaves.h"
 
+#include <memory>
+#include <vector>
+
+#include <openvdb/openvdb.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -47,19 +51,21 @@ SignLeaf seed_signs(const ImplicitSurface& surface, const NodeMasks& wanted, con
 }  // namespace
 
 SignedDistanceField sign_distances(const ImplicitSurface& surface, const NodeMasks& wanted,
-                                   std::vector<DistanceLeaf> leaves, double reach) {
+                                   const SquaredDistances& squared, double reach) {
   const auto squared_reach = static_cast<float>((reach / surface.dx) * (reach / surface.dx));
-  std::vector<SignLeaf> signs(leaves.size());
+  std::vector<SignLeaf> signs(wanted.leaves().size());
   for_each_index(signs.size(), [&](std::size_t n) {
-    signs[n] =
-        seed_signs(surface, wanted, wanted.leaves()[n], nodes_at_most(leaves[n]->buffer().data(), squared_reach));
+    signs[n] = seed_signs(surface, wanted, wanted.leaves()[n], nodes_at_most(squared.leaf(n), squared_reach));
   });
   flood_signs(signs);
+  std::vector<std::unique_ptr<OutputLeaf>> leaves(signs.size());
   for_each_index(leaves.size(), [&](std::size_t n) {
+    leaves[n] = std::make_unique<OutputLeaf>(openvdb::PartialCreate(), wanted.leaves()[n].origin);
     OutputLeaf::NodeMaskType mask;
     for (int x = 0; x < kWidth; ++x) mask.getWord<openvdb::Index64>(x) = signs[n].inside[x] | signs[n].outside[x];
     leaves[n]->setValueMask(mask);
-    sign_values(signs[n].inside, signs[n].outside, static_cast<float>(surface.dx), leaves[n]->buffer().data());
+    sign_values(squared.leaf(n), signs[n].inside, signs[n].outside, static_cast<float>(surface.dx),
+                leaves[n]->buffer().data());
   });
 
   SignedDistanceField field;
@@ -68,7 +74,7 @@ SignedDistanceField sign_distances(const ImplicitSurface& surface, const NodeMas
   field.phi = openvdb::FloatGrid::create(SignedDistanceField::absent);
   field.phi->setTransform(openvdb::math::Transform::createLinearTransform(surface.dx));
   field.phi->setName("phi");
-  for (DistanceLeaf& leaf : leaves) {
+  for (std::unique_ptr<OutputLeaf>& leaf : leaves) {
     if (!leaf->isEmpty()) field.phi->tree().addLeaf(leaf.release());
   }
   return field;

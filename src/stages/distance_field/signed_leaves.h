@@ -11,10 +11,10 @@ namespace particle_surface_tracker {
 
 /// Gives distances their signs. Those at the corners of cut cells are φ̃'s; both ends of every edge that the isosurface
 /// crosses are such corners, so they can be carried along lattice edges without crossing it.
-/// \param leaves of `wanted`, with squared distances [cells²]; they become the field's.
+/// \param squared those of the leaves of `wanted`.
 /// \param reach [m].
 /// \return the wanted nodes within reach that lattice edges between such nodes connect to a corner of a cut cell.
 SignedDistanceField sign_distances(const ImplicitSurface& surface, const NodeMasks& wanted,
-                                   std::vector<DistanceLeaf> leaves, double reach);
+                                   const SquaredDistances& squared, double reach);
 
 }  // namespace particle_surface_tracker

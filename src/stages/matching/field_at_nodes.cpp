@@ -88,7 +88,7 @@ std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& no
     near_leaf[n] = static_cast<std::uint32_t>(near.leaves().size());
     near.words_at(leaf.origin) = both;
   }
-  const std::vector<DistanceLeaf> squared = measure_distances(*cells_, near, reach_cells);
+  const SquaredDistances squared = measure_distances(*cells_, near, reach_cells);
 
   std::vector<LeafValues> values(needed.leaves().size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 16), [&](const auto& range) {
@@ -99,8 +99,7 @@ std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& no
           const std::size_t place = 64 * x + bit;
           double distance = reach;
           if (near_leaf[n] != LeafIndex::none) {
-            const float known =
-                std::max(squared[near_leaf[n]]->getValue(static_cast<openvdb::Index>(place)), kSmallestSquared);
+            const float known = std::max(squared.leaf(near_leaf[n])[place], kSmallestSquared);
             distance = std::min(reach, std::sqrt(static_cast<double>(known)) * surface_.dx);
           }
           const bool is_inside = (signs.inside[x] >> bit & 1) != 0;
