@@ -64,22 +64,31 @@ void ClosestPlaceSearch::search_leaf(const NearLeaf& near, const Vec3d& position
     const float z = near.position.z() - cells.z[n];
     squared_[n] = x * x + y * y + z * z;
   }
-  const auto measure_within = [&](std::size_t n) {
-    const float within = std::sqrt(closest.squared_distance) - kSmallestGain;
-    const auto squared_within = [&](float radius) { return (within + radius) * (within + radius); };
-    if (squared_[n] > squared_within(kCellRadius)) return;
+  // Cells whose triangles are all farther than this are passed over.
+  float within = 0.0f;
+  float squared_within_of_cell = 0.0f;
+  const auto squared_within = [&](float radius) { return (within + radius) * (within + radius); };
+  const auto look_within = [&](float squared_distance) {
+    within = std::sqrt(squared_distance) - kSmallestGain;
+    squared_within_of_cell = squared_within(kCellRadius);
+  };
+  const auto look_at = [&](std::size_t n) {
     const std::uint32_t cell = near.leaf->begin + static_cast<std::uint32_t>(n);
     Disc& disc = cells.discs[n];
     if (disc.height < 0.0f) disc = make_disc(cell, near.leaf->origin);
     const Vec3f offset = near.position - disc.center;
-    if (offset.squaredNorm() > squared_within(disc.radius)) return;
-    if (distance_to_disc(disc, offset) <= within) measure(cell, position, closest);
+    if (offset.squaredNorm() > squared_within(disc.radius) || distance_to_disc(disc, offset) > within) return;
+    measure(cell, position, closest);
+    look_within(closest.squared_distance);
   };
+  look_within(closest.squared_distance);
   // What has been found lets others be passed over, so the most promising is the first.
   const auto nearest = static_cast<std::size_t>(std::min_element(squared_.begin(), squared_.end()) - squared_.begin());
-  measure_within(nearest);
+  if (squared_[nearest] > squared_within_of_cell) return;
+  look_at(nearest);
+  squared_[nearest] = std::numeric_limits<float>::max();
   for (std::size_t n = 0; n < count; ++n) {
-    if (n != nearest) measure_within(n);
+    if (squared_[n] <= squared_within_of_cell) look_at(n);
   }
 }
 

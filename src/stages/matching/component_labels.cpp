@@ -4,27 +4,31 @@
 #include <cmath>
 #include <utility>
 
-#include <openvdb/tree/ValueAccessor.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "particle_surface_tracker/core/mesh_measures.h"
 #include "stages/nodes/lattice_cell.h"
+#include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
 
 namespace {
 
-using openvdb::Coord;
-using LabelledCell = std::pair<Coord, std::int32_t>;
-
 /// Cells away from the isosurface up to which it is known what is nearest: as far as details usually reach.
 constexpr int kReach = 4;
 
-constexpr int kCellsPerLeaf = 8;
+constexpr int kWidth = 8;  // of a leaf
+
+/// Most components are specks.
+constexpr std::size_t kFewLeaves = 8;
 
 /// A component of eight particles has more triangles, where cells are half as large as r.
 constexpr std::size_t kLargestSpeck = 150;
+
+void add_words(const LeafWords& words, LeafWords& to) {
+  for (int x = 0; x < kWidth; ++x) to[x] |= words[x];
+}
 
 /// The components of φ = 0: 0 is the largest, the others count from 1 by their lowest vertex.
 struct NumberedComponents {
@@ -50,62 +54,78 @@ NumberedComponents number_components(const SurfaceTriangulation& surface) {
   return numbered;
 }
 
-/// Cut cells of all components but the largest, and those of the largest in leaves next to them.
-std::vector<LabelledCell> cells_near_gaps(const SurfaceTriangulation& surface,
-                                          const std::vector<std::int32_t>& numbers) {
-  openvdb::MaskTree near;
+/// Of all components but the largest the cut cells, and those of the largest in leaves next to them, by number.
+std::vector<NodeMasks> cells_near_gaps(const SurfaceTriangulation& surface, const NumberedComponents& components) {
+  std::vector<NodeMasks> cells(components.sizes.size(), NodeMasks(kFewLeaves));
   for (std::size_t c = 0; c + 1 < surface.cells.size(); ++c) {
-    if (numbers[surface.cells[c].first_triangle] == 0) continue;
-    const Coord& origin = surface.cells[c].origin;
-    near.touchLeaf(origin);
+    cells[components.of_triangle[surface.cells[c].first_triangle]].insert(surface.cells[c].origin);
   }
-  openvdb::MaskTree around;
-  for (auto leaf = near.cbeginLeaf(); leaf; ++leaf) {
-    for (int x = -1; x <= 1; ++x) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int z = -1; z <= 1; ++z) {
-          around.touchLeaf(leaf->origin().offsetBy(kCellsPerLeaf * x, kCellsPerLeaf * y, kCellsPerLeaf * z));
-        }
+  NodeMasks around;
+  for (std::size_t number = 1; number < cells.size(); ++number) {
+    for (const NodeMasks::Leaf& leaf : cells[number].leaves()) {
+      for (int n = 0; n < 27; ++n) {
+        around.words_at(leaf.origin.offsetBy(kWidth * (n / 9 - 1), kWidth * (n / 3 % 3 - 1), kWidth * (n % 3 - 1)));
       }
     }
   }
-  std::vector<LabelledCell> cells;
-  for (std::size_t c = 0; c + 1 < surface.cells.size(); ++c) {
-    const CutCell& cell = surface.cells[c];
-    if (around.probeConstLeaf(cell.origin) == nullptr) continue;
-    cells.emplace_back(cell.origin, numbers[cell.first_triangle] + 1);
+  NodeMasks near(kFewLeaves);
+  for (const NodeMasks::Leaf& leaf : cells.front().leaves()) {
+    if (around.find(leaf.origin) != LeafIndex::none) near.words_at(leaf.origin) = leaf.words;
   }
+  cells.front() = std::move(near);
   return cells;
 }
 
-/// Keeps one label a cell, the lowest.
-void settle(std::vector<LabelledCell>& cells) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
-              cells.end());
+/// The cells that share a face with one of some cells.
+NodeMasks cells_beside(const NodeMasks& cells) {
+  NodeMasks beside(cells.leaves().size());
+  for (const NodeMasks::Leaf& leaf : cells.leaves()) {
+    for (int side = 0; side < 6; ++side) {
+      const int direction = side % 2 == 0 ? -1 : 1;
+      const MovedWords moved = move_words(leaf.words, side / 2, direction);
+      add_words(moved.inside, beside.words_at(leaf.origin));
+      if (is_zero(moved.outside)) continue;
+      openvdb::Coord beyond = leaf.origin;
+      beyond[side / 2] += direction * kWidth;
+      add_words(moved.outside, beside.words_at(beyond));
+    }
+  }
+  return beside;
 }
 
 }  // namespace
 
-ComponentLabels::ComponentLabels(const ImplicitSurface& surface) : dx_(surface.dx), labels_(0) {
+ComponentLabels::ComponentLabels(const ImplicitSurface& surface) : dx_(surface.dx) {
   const NumberedComponents components = number_components(surface.triangulation);
   for (const std::size_t size : components.sizes) is_speck_.push_back(size <= kLargestSpeck);
   if (components.sizes.size() <= 1) return;
-  openvdb::tree::ValueAccessor<openvdb::Int32Tree> labels(labels_);
-  std::vector<LabelledCell> front = cells_near_gaps(surface.triangulation, components.of_triangle);
-  settle(front);
+  // All components grow by a layer of cells at a time; what two reach at the same time belongs to the first.
+  std::vector<NodeMasks> fronts = cells_near_gaps(surface.triangulation, components);
+  NodeMasks taken;
   for (int step = 0; step <= kReach; ++step) {
-    for (const auto& [cell, label] : front) labels.setValue(cell, label);
-    std::vector<LabelledCell> next;
-    for (const auto& [cell, label] : front) {
-      for (int side = 0; side < 6; ++side) {
-        Coord beyond = cell;
-        beyond[side / 2] += side % 2 == 0 ? -1 : 1;
-        if (labels.getValue(beyond) == 0) next.emplace_back(beyond, label);
+    for (std::size_t number = 0; number < fronts.size(); ++number) {
+      NodeMasks& front = fronts[number];
+      if (step > 0) front = cells_beside(front);
+      for (const NodeMasks::Leaf& leaf : front.leaves()) {
+        LeafWords& taken_words = taken.words_at(leaf.origin);
+        LeafWords& words = front.words_at(leaf.origin);
+        for (int x = 0; x < kWidth; ++x) words[x] &= ~taken_words[x];
+        add_words(words, taken_words);
+        add(leaf.origin, words, static_cast<std::int32_t>(number));
       }
     }
-    settle(next);
-    front = std::move(next);
+  }
+}
+
+void ComponentLabels::add(const openvdb::Coord& origin, const LeafWords& cells, std::int32_t number) {
+  std::uint32_t leaf = index_.find(origin);
+  if (leaf == LeafIndex::none) {
+    leaf = static_cast<std::uint32_t>(leaves_.size());
+    index_.insert(origin, leaf);
+    leaves_.emplace_back().fill(kFar);
+  }
+  for (int x = 0; x < kWidth; ++x) {
+    for_each_bit(cells[x], [&](int bit) { leaves_[leaf][kWidth * kWidth * x + bit] = number; });
   }
 }
 
@@ -113,9 +133,11 @@ std::vector<std::int32_t> ComponentLabels::of(const std::vector<Vec3f>& position
   std::vector<std::int32_t> found(positions.size(), kFar);
   if (is_of_one_piece()) return found;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), 4096), [&](const auto& range) {
-    const openvdb::tree::ValueAccessor<const openvdb::Int32Tree> labels(labels_);
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
-      found[n] = labels.getValue(cell_of(positions[n].cast<double>() / dx_)) - 1;
+      const openvdb::Coord cell = cell_of(positions[n].cast<double>() / dx_);
+      const std::uint32_t leaf = index_.find(cell & ~(kWidth - 1));
+      if (leaf == LeafIndex::none) continue;
+      found[n] = leaves_[leaf][kWidth * kWidth * (cell.x() & 7) + kWidth * (cell.y() & 7) + (cell.z() & 7)];
     }
   });
   return found;

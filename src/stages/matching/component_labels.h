@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <openvdb/Types.h>
 
 #include "particle_surface_tracker/core/implicit_surface.h"
+#include "stages/nodes/leaf_index.h"
+#include "stages/nodes/leaf_masks.h"
 
 namespace particle_surface_tracker {
 
@@ -18,7 +21,7 @@ class ComponentLabels {
   explicit ComponentLabels(const ImplicitSurface& surface);
 
   /// Whether φ = 0 is of one piece, or empty.
-  bool is_of_one_piece() const { return labels_.empty(); }
+  bool is_of_one_piece() const { return leaves_.empty(); }
 
   /// Whether a component is so small that it may come and go with the way its few particles lie to the lattice.
   bool is_speck(std::int32_t number) const { return is_speck_[static_cast<std::size_t>(number)]; }
@@ -27,9 +30,14 @@ class ComponentLabels {
   std::vector<std::int32_t> of(const std::vector<Vec3f>& positions) const;
 
  private:
+  using Leaf = std::array<std::int32_t, 512>;  // of 8³ cells, z fastest
+
+  void add(const openvdb::Coord& origin, const LeafWords& cells, std::int32_t number);
+
   double dx_;
   std::vector<bool> is_speck_;
-  openvdb::Int32Tree labels_;  // label + 1; 0 where there is none
+  std::vector<Leaf> leaves_;
+  LeafIndex index_{64};
 };
 
 }  // namespace particle_surface_tracker
