@@ -1,12 +1,10 @@
 #include "crossing_search.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <tbb/parallel_for.h>
 
-#include "triangle_overlap.h"
+#include "triangle_crossing.h"
 
 namespace particle_surface_tracker {
 
@@ -14,9 +12,6 @@ namespace {
 
 /// Triangles that one task looks at.
 constexpr std::size_t kTrianglesPerTask = 256;
-
-/// A bound on the relative error of a height above a plane.
-constexpr double kRounding = 1e-13;
 
 struct Box {
   Vec3f low, high;
@@ -27,42 +22,14 @@ struct Box {
   }
 };
 
-Corners corners_of(const ConnectedTriangles& mesh, std::uint32_t triangle, std::size_t first) {
+PlacedTriangle placed(const ConnectedTriangles& mesh, std::uint32_t triangle) {
   const Triangle& t = mesh.triangles[triangle];
-  return {mesh.positions[t[first]].cast<double>(), mesh.positions[t[(first + 1) % 3]].cast<double>(),
-          mesh.positions[t[(first + 2) % 3]].cast<double>()};
-}
-
-/// Whether some corners of a triangle, from `begin` on, are all on one side of the plane of another one, by more than
-/// rounding can be wrong.
-bool lies_beside(const Corners& triangle, std::size_t begin, const Corners& plane) {
-  const Vec3d normal = area_normal(plane);
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest(), farthest = 0.0;
-  for (std::size_t k = begin; k < 3; ++k) {
-    const Vec3d offset = triangle[k] - plane[0];
-    const double height = normal.dot(offset);
-    low = std::min(low, height);
-    high = std::max(high, height);
-    farthest = std::max(farthest, offset.squaredNorm());
-  }
-  const double rounding = kRounding * std::sqrt(normal.squaredNorm() * farthest);
-  return low > rounding || high < -rounding;
+  return place_triangle(t, {mesh.positions[t[0]].cast<double>(), mesh.positions[t[1]].cast<double>(),
+                            mesh.positions[t[2]].cast<double>()});
 }
 
 bool cross(const ConnectedTriangles& mesh, std::uint32_t one, std::uint32_t other) {
-  std::size_t shared = 0, in_one = 0, in_other = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (mesh.triangles[one][i] != mesh.triangles[other][j]) continue;
-      ++shared;
-      in_one = i;
-      in_other = j;
-    }
-  }
-  if (shared > 1) return false;
-  const Corners first = corners_of(mesh, one, in_one), second = corners_of(mesh, other, in_other);
-  if (lies_beside(second, shared, first) || lies_beside(first, shared, second)) return false;
-  return shared == 0 ? triangles_touch(first, second) : triangles_cross_at_shared_corner(first, second);
+  return triangles_cross(placed(mesh, one), placed(mesh, other));
 }
 
 /// The triangles within two rings of one whose boxes meet its own, one after the other.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "triangle_overlap.h"
-
 namespace particle_surface_tracker {
 
 namespace {
@@ -131,80 +129,6 @@ bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, doub
     }
   }
   return largest <= largest_fold || largest <= largest_replaced_fold(surface, patch, largest_fold);
-}
-
-namespace {
-
-/// Whether two triangles have more in common than the corner that they share by index. Two that share an edge are not
-/// looked at: that is a matter of folds.
-bool cross(const Triangle& first, const Corners& at_first, const Triangle& second, const Corners& at_second) {
-  std::size_t shared = 0, in_first = 0, in_second = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (first[i] != second[j]) continue;
-      ++shared;
-      in_first = i;
-      in_second = j;
-    }
-  }
-  if (shared == 0) return triangles_touch(at_first, at_second);
-  if (shared > 1) return false;
-  const auto rotated = [](const Corners& c, std::size_t by) {
-    return Corners{c[by], c[(by + 1) % 3], c[(by + 2) % 3]};
-  };
-  return triangles_cross_at_shared_corner(rotated(at_first, in_first), rotated(at_second, in_second));
-}
-
-bool crosses_itself(const std::vector<PatchTriangle>& triangles) {
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t j = i + 1; j < triangles.size(); ++j) {
-      if (cross(triangles[i].vertices, triangles[i].corners, triangles[j].vertices, triangles[j].corners)) return true;
-    }
-  }
-  return false;
-}
-
-/// The box of a triangle; its corners are stored as floats.
-Eigen::AlignedBox3f box_of(const Corners& corners) {
-  Eigen::AlignedBox3f box;
-  for (const Vec3d& corner : corners) box.extend(corner.cast<float>());
-  return box;
-}
-
-bool crosses_others(const EditableSurface& surface, const std::vector<PatchTriangle>& triangles,
-                    const std::vector<std::uint32_t>& others) {
-  return std::any_of(triangles.begin(), triangles.end(), [&](const PatchTriangle& triangle) {
-    const Eigen::AlignedBox3f box = box_of(triangle.corners);
-    return std::any_of(others.begin(), others.end(), [&](std::uint32_t t) {
-      const Corners corners = surface.corners(t);
-      return box.intersects(box_of(corners)) &&
-             cross(triangle.vertices, triangle.corners, surface.triangle(t), corners);
-    });
-  });
-}
-
-/// The triangles whose box meets that of the patch or of what it replaces; without the latter.
-void find_others(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
-                 std::vector<std::uint32_t>& others) {
-  Eigen::AlignedBox3f box;
-  for (const PatchTriangle& triangle : patch.triangles) box.extend(box_of(triangle.corners));
-  for (const std::uint32_t t : patch.replaced) box.extend(box_of(surface.corners(t)));
-  others.clear();
-  surroundings.for_each_near(box, [&](std::uint32_t t) {
-    if (std::find(patch.replaced.begin(), patch.replaced.end(), t) == patch.replaced.end()) others.push_back(t);
-  });
-}
-
-}  // namespace
-
-bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
-                 std::vector<std::uint32_t>& others) {
-  find_others(surface, patch, surroundings, others);
-  if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, others)) return true;
-  std::vector<PatchTriangle> before;
-  for (const std::uint32_t t : patch.replaced)
-    before.push_back({surface.triangle(t), surface.corners(t), Vec3d::Zero(), {}});
-  return crosses_itself(before) || crosses_others(surface, before, others);
 }
 
 }  // namespace particle_surface_tracker

@@ -5,7 +5,6 @@
 
 #include "editable_surface.h"
 #include "patch.h"
-#include "surroundings.h"
 #include "tolerances.h"
 
 namespace particle_surface_tracker {
@@ -40,10 +39,5 @@ bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, con
 
 /// No edge in or around the patch becomes folded, or none worse than the worst one before.
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold);
-
-/// The patch does not cross itself or the triangles around it, unless what it replaces did so already.
-/// \param others memory for the search.
-bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
-                 std::vector<std::uint32_t>& others);
 
 }  // namespace particle_surface_tracker

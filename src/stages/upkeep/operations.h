@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "clearance.h"
 #include "editable_surface.h"
 #include "patch.h"
 #include "surroundings.h"
@@ -51,6 +52,7 @@ class Operations {
   const Tolerances& tolerances_;
   double size_;
   std::optional<Surroundings> surroundings_;  // made when first needed
+  Clearance clearance_;
   PlannedPatch patch_;
   std::size_t crossings_ = 0;
   std::vector<std::uint32_t> indices_;  // memory for searches

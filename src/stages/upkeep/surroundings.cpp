@@ -1,7 +1,5 @@
 #include "surroundings.h"
 
-#include <cmath>
-
 namespace particle_surface_tracker {
 
 Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell) : surface_(surface) {
@@ -37,9 +35,14 @@ bool Surroundings::has_more_cells_than_entries(const Cell& first, const Cell& la
 }
 
 Surroundings::Cell Surroundings::cell_of(const Vec3f& position, std::size_t level) const {
-  const Vec3d scaled = position.cast<double>() * inverse_cell_size_[level];
-  return {static_cast<std::int64_t>(std::floor(scaled.x())), static_cast<std::int64_t>(std::floor(scaled.y())),
-          static_cast<std::int64_t>(std::floor(scaled.z()))};
+  Cell cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    // std::floor() is a function call on plain x86-64.
+    const double scaled = static_cast<double>(position[axis]) * inverse_cell_size_[level];
+    const auto truncated = static_cast<std::int64_t>(scaled);
+    cell[axis] = truncated - (scaled < static_cast<double>(truncated) ? 1 : 0);
+  }
+  return cell;
 }
 
 std::uint64_t Surroundings::row_of(std::int64_t y, std::int64_t z, std::size_t level) {

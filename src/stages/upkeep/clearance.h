@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "editable_surface.h"
+#include "patch.h"
+#include "surroundings.h"
+#include "triangle_crossing.h"
+
+namespace particle_surface_tracker {
+
+/// The guard that keeps operations from making the surface cross itself; one object for many questions.
+class Clearance {
+ public:
+  /// Whether a patch does not cross itself or the triangles around it, unless what it replaces did so already.
+  bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings);
+
+ private:
+  struct BoxedTriangle {
+    PlacedTriangle triangle;
+    Eigen::AlignedBox3f box;
+  };
+
+  static BoxedTriangle make_boxed(const Triangle& vertices, const Corners& corners);
+  void find_others(const PlannedPatch& patch, const Surroundings& surroundings);
+  bool crosses(const EditableSurface& surface, const std::vector<BoxedTriangle>& triangles) const;
+
+  // Memory for the search.
+  std::vector<BoxedTriangle> planned_, replaced_;
+  std::vector<std::uint32_t> others_;
+};
+
+}  // namespace particle_surface_tracker
