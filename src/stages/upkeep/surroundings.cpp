@@ -1,5 +1,7 @@
 #include "surroundings.h"
 
+#include <utility>
+
 namespace particle_surface_tracker {
 
 Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell) : surface_(surface) {
@@ -8,30 +10,50 @@ Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell)
     inverse = 1.0 / size;
     size *= 2.0;
   }
+  const auto count = static_cast<std::uint32_t>(surface.triangle_slots());
   std::size_t slots = 1024;
-  while (slots < surface.triangle_slots()) slots *= 2;
-  heads_.assign(slots, kEnd);
-  entries_.reserve(surface.triangle_slots() + surface.triangle_slots() / 8);
-  for (std::uint32_t t = 0; t < surface.triangle_slots(); ++t) enter(t);
+  while (slots < count) slots *= 2;
+  slot_mask_ = slots - 1;
+  slots_.assign(slots + 1, {0, kEnd});
+
+  std::vector<std::uint32_t> slot_of_triangle(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const Place place = place_of(t);
+    level_in_use_[place.level] = true;
+    slot_of_triangle[t] = static_cast<std::uint32_t>(place.slot);
+    ++slots_[place.slot].begin;
+  }
+  std::uint32_t begin = 0;
+  for (Slot& slot : slots_) begin += std::exchange(slot.begin, begin);
+  first_entries_.resize(count);
+  for (std::uint32_t t = 0; t < count; ++t) first_entries_[slots_[slot_of_triangle[t]].begin++] = place_of(t).entry;
+  // That left every begin where the next slot begins; the last one never moved.
+  for (std::size_t slot = slots; slot > 0; --slot) slots_[slot].begin = slots_[slot - 1].begin;
+  slots_.front().begin = 0;
 }
 
 void Surroundings::enter(std::uint32_t triangle) {
+  const Place place = place_of(triangle);
+  level_in_use_[place.level] = true;
+  std::uint32_t& later = slots_[place.slot].later;
+  later_entries_.push_back({place.entry, later});
+  later = static_cast<std::uint32_t>(later_entries_.size() - 1);
+}
+
+Surroundings::Place Surroundings::place_of(std::uint32_t triangle) const {
   Eigen::AlignedBox3f box;
   for (const std::uint32_t vertex : surface_.triangle(triangle)) box.extend(surface_.stored_position(vertex));
   const double extent = box.sizes().maxCoeff();
   std::size_t level = 0;
   while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
-  level_in_use_[level] = true;
   const Cell cell = cell_of(box.min(), level);
-  const std::size_t slot = slot_of(row_of(cell[1], cell[2], level), cell[0]);
-  entries_.push_back({box, triangle, heads_[slot]});
-  heads_[slot] = static_cast<std::uint32_t>(entries_.size() - 1);
+  return {{box, triangle}, level, slot_of(row_of(cell[1], cell[2], level), cell[0])};
 }
 
 bool Surroundings::has_more_cells_than_entries(const Cell& first, const Cell& last) const {
   double cells = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis) cells *= static_cast<double>(last[axis] - first[axis]) + 2.0;
-  return cells > static_cast<double>(entries_.size());
+  return cells > static_cast<double>(first_entries_.size() + later_entries_.size());
 }
 
 Surroundings::Cell Surroundings::cell_of(const Vec3f& position, std::size_t level) const {
