@@ -26,12 +26,22 @@ std::size_t place_of(const openvdb::Coord& node) {
   return static_cast<std::size_t>(64 * (node.x() & 7) + 8 * (node.y() & 7) + (node.z() & 7));
 }
 
-/// The cells that the isosurface passes through, and all within `reach` of them [cells].
-NodeMasks cells_within(const ImplicitSurface& surface, double reach) {
-  NodeMasks cells(surface.field->tree().leafCount());
-  const std::vector<CutCell>& cut = surface.triangulation.cells;
-  for (std::size_t c = 0; c + 1 < cut.size(); ++c) cells.insert(cut[c].origin);
+constexpr int kLeafWidth = 8;
+
+/// Of the leaves that some nodes are in, the cells within `reach` of those that the isosurface passes through; of other
+/// leaves any [cells].
+NodeMasks cells_within(const SurfaceCells& surface, double reach, const NodeMasks& nodes) {
   const int width = static_cast<int>(std::ceil(reach));
+  const int leaf_width = (width + kLeafWidth) / kLeafWidth;
+  NodeMasks leaves;  // by their coordinates
+  for (const NodeMasks::Leaf& leaf : nodes.leaves()) leaves.insert(leaf.origin >> 3);
+  leaves.dilate(leaf_width, leaf_width);
+  NodeMasks cells;
+  const std::vector<CutCell>& cut = surface.surface().triangulation.cells;
+  for (const SurfaceCells::Leaf& leaf : surface.leaves()) {
+    if (!leaves.contains(leaf.origin >> 3)) continue;
+    for (std::uint32_t c = leaf.begin; c != leaf.end; ++c) cells.insert(cut[c].origin);
+  }
   cells.dilate(width, width + 1);
   return cells;
 }
@@ -75,7 +85,7 @@ std::vector<float> FieldAtNodes::distances(const std::vector<openvdb::Coord>& no
   const double reach_cells = reach / surface_.dx;
   const NodeMasks needed = nodes_needed(nodes, ratio);
   // A search that finds nothing takes longest, so nodes that are too far away are left out.
-  const NodeMasks within = cells_within(surface_, reach_cells);
+  const NodeMasks within = cells_within(*cells_, reach_cells, needed);
   NodeMasks near(needed.leaves().size());
   std::vector<std::uint32_t> near_leaf(needed.leaves().size(), LeafIndex::none);
   for (std::size_t n = 0; n < needed.leaves().size(); ++n) {

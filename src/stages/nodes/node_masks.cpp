@@ -9,25 +9,35 @@ namespace {
 
 constexpr int kWidth = 8;
 
+/// The nodes of a slice with the lowest z.
+constexpr std::uint64_t lowest_z(int count) {
+  return kLowestZ * ((std::uint64_t{1} << count) - 1);
+}
+
 }  // namespace
 
 bool is_zero(const LeafWords& words) {
   return std::all_of(words.begin(), words.end(), [](std::uint64_t word) { return word == 0; });
 }
 
-MovedWords move_words(const LeafWords& words, int axis, int direction) {
+MovedWords move_words(const LeafWords& words, int axis, int direction, int distance) {
+  const int kept = kWidth - distance;
+  const std::uint64_t kept_z = lowest_z(direction > 0 ? kept : distance);
   MovedWords moved;
   for (int x = 0; x < kWidth; ++x) {
     const std::uint64_t word = words[x];
     if (axis == 0) {
-      const int to = x + direction;
+      const int to = x + direction * distance;
       (to < 0 || to >= kWidth ? moved.outside : moved.inside)[to & (kWidth - 1)] = word;
     } else if (axis == 1) {
-      moved.inside[x] = direction > 0 ? word << 8 : word >> 8;
-      moved.outside[x] = direction > 0 ? word >> 56 : word << 56;
+      if (kept > 0) moved.inside[x] = direction > 0 ? word << kWidth * distance : word >> kWidth * distance;
+      moved.outside[x] = direction > 0 ? word >> kWidth * kept : word << kWidth * kept;
+    } else if (direction > 0) {
+      moved.inside[x] = (word & kept_z) << distance;
+      moved.outside[x] = (word & ~kept_z) >> kept;
     } else {
-      moved.inside[x] = direction > 0 ? (word & ~kHighestZ) << 1 : (word & ~kLowestZ) >> 1;
-      moved.outside[x] = direction > 0 ? (word & kHighestZ) >> 7 : (word & kLowestZ) << 7;
+      moved.inside[x] = (word & ~kept_z) >> distance;
+      moved.outside[x] = (word & kept_z) << kept;
     }
   }
   return moved;
@@ -41,14 +51,19 @@ bool NodeMasks::contains(const openvdb::Coord& node) const {
 
 void NodeMasks::dilate(int down, int up) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (int step = 0; step < std::max(down, up); ++step) {
-      if (step < down) dilate_by_one(axis, -1);
-      if (step < up) dilate_by_one(axis, +1);
+    for (const int direction : {-1, +1}) {
+      const int wanted = direction < 0 ? down : up;
+      // What covers n nodes in a row covers twice as many with a copy of itself.
+      for (int covered = 0; covered < wanted;) {
+        const int distance = std::min({covered + 1, wanted - covered, kWidth});
+        add_moved(axis, direction, distance);
+        covered += distance;
+      }
     }
   }
 }
 
-void NodeMasks::dilate_by_one(int axis, int direction) {
+void NodeMasks::add_moved(int axis, int direction, int distance) {
   const std::size_t count = leaves_.size();
   openvdb::Coord offset(0);
   offset[axis] = direction * kWidth;
@@ -56,7 +71,7 @@ void NodeMasks::dilate_by_one(int axis, int direction) {
   std::vector<std::pair<openvdb::Coord, LeafWords>> arrivals;
   for (std::size_t n = 0; n < count; ++n) {
     Leaf& leaf = leaves_[n];
-    const MovedWords moved = move_words(leaf.words, axis, direction);
+    const MovedWords moved = move_words(leaf.words, axis, direction, distance);
     for (int x = 0; x < kWidth; ++x) leaf.words[x] |= moved.inside[x];
     if (!is_zero(moved.outside)) arrivals.emplace_back(leaf.origin + offset, moved.outside);
   }

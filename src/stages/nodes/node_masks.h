@@ -48,22 +48,23 @@ class NodeMasks {
   void dilate(int down, int up);
 
  private:
-  void dilate_by_one(int axis, int direction);
+  void add_moved(int axis, int direction, int distance);
 
   std::vector<Leaf> leaves_;
   LeafIndex index_;
   std::uint32_t last_ = LeafIndex::none;
 };
 
-/// Bits that leave a mask when it moves by one along an axis come out at the far side of the next leaf's.
+/// Bits that leave a mask when it moves along an axis come out at the far side of the next leaf's.
 struct MovedWords {
   LeafWords inside{};   ///< What stays in the leaf.
   LeafWords outside{};  ///< What belongs to the next leaf in that direction.
 };
 
-/// A mask moved by one node along an axis.
+/// A mask moved along an axis.
 /// \param direction +1 or −1.
-MovedWords move_words(const LeafWords& words, int axis, int direction);
+/// \param distance 1 to 8 nodes.
+MovedWords move_words(const LeafWords& words, int axis, int direction, int distance = 1);
 
 /// True if no bit is set.
 bool is_zero(const LeafWords& words);
