@@ -41,11 +41,19 @@ class Neighborhood {
     const Triangle& t = mesh_.triangles[triangle];
     const Vec3f &a = mesh_.positions[t[0]], &b = mesh_.positions[t[1]], &c = mesh_.positions[t[2]];
     box_ = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-    found_.clear();
+    // The vertices of the first ring, each with a half-edge from it; most are met more than once.
+    ring_.clear();
     for (std::uint32_t k = 0; k < 3; ++k) {
       mesh_.for_each_around(3 * triangle + k, [&](std::uint32_t h) {
-        mesh_.for_each_around(next_half_edge(h), [&](std::uint32_t beyond) { add(beyond / 3); });
+        const std::uint32_t beyond = next_half_edge(h);
+        ring_.emplace_back(start_of(mesh_.triangles, beyond), beyond);
       });
+    }
+    std::sort(ring_.begin(), ring_.end());
+    found_.clear();
+    for (std::size_t n = 0; n < ring_.size(); ++n) {
+      if (n > 0 && ring_[n].first == ring_[n - 1].first) continue;
+      mesh_.for_each_around(ring_[n].second, [&](std::uint32_t h) { add(h / 3); });
     }
     std::sort(found_.begin(), found_.end());
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
@@ -60,6 +68,7 @@ class Neighborhood {
 
   const ConnectedTriangles& mesh_;
   Box box_{};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ring_;
   std::vector<std::uint32_t> found_;
 };
 
