@@ -16,17 +16,17 @@ Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell)
   slot_mask_ = slots - 1;
   slots_.assign(slots + 1, {0, kEnd});
 
-  std::vector<std::uint32_t> slot_of_triangle(count);
+  std::vector<Place> places;
+  places.reserve(count);
   for (std::uint32_t t = 0; t < count; ++t) {
-    const Place place = place_of(t);
+    const Place& place = places.emplace_back(place_of(t));
     level_in_use_[place.level] = true;
-    slot_of_triangle[t] = static_cast<std::uint32_t>(place.slot);
     ++slots_[place.slot].begin;
   }
   std::uint32_t begin = 0;
   for (Slot& slot : slots_) begin += std::exchange(slot.begin, begin);
   first_entries_.resize(count);
-  for (std::uint32_t t = 0; t < count; ++t) first_entries_[slots_[slot_of_triangle[t]].begin++] = place_of(t).entry;
+  for (const Place& place : places) first_entries_[slots_[place.slot].begin++] = place.entry;
   // That left every begin where the next slot begins; the last one never moved.
   for (std::size_t slot = slots; slot > 0; --slot) slots_[slot].begin = slots_[slot - 1].begin;
   slots_.front().begin = 0;
@@ -44,10 +44,10 @@ Surroundings::Place Surroundings::place_of(std::uint32_t triangle) const {
   Eigen::AlignedBox3f box;
   for (const std::uint32_t vertex : surface_.triangle(triangle)) box.extend(surface_.stored_position(vertex));
   const double extent = box.sizes().maxCoeff();
-  std::size_t level = 0;
+  std::uint32_t level = 0;
   while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
   const Cell cell = cell_of(box.min(), level);
-  return {{box, triangle}, level, slot_of(row_of(cell[1], cell[2], level), cell[0])};
+  return {{box, triangle}, level, static_cast<std::uint32_t>(slot_of(row_of(cell[1], cell[2], level), cell[0]))};
 }
 
 bool Surroundings::has_more_cells_than_entries(const Cell& first, const Cell& last) const {

@@ -65,8 +65,8 @@ class Surroundings {
 
   struct Place {
     Entry entry;
-    std::size_t level;
-    std::size_t slot;
+    std::uint32_t level;
+    std::uint32_t slot;
   };
 
   Place place_of(std::uint32_t triangle) const;
