@@ -30,5 +30,6 @@ using ImplicitSurfaceNodelet = NodeInManager<SurfaceNode>;
 
 }  // namespace particle_surface_tracker
 
+// cppcheck-suppress unknownMacro // It takes two of them in a row for one declaration.
 PLUGINLIB_EXPORT_CLASS(particle_surface_tracker::TrackerNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(particle_surface_tracker::ImplicitSurfaceNodelet, nodelet::Nodelet)
