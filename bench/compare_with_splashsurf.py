@@ -5,12 +5,9 @@ Both work on melting_bunny in one run and in turns: splashsurf on all frames, th
 those of the process, all threads, two threads each; medians over frames and turns. track_bag must be in PATH.
 """
 import argparse
-import json
 import os
 import pathlib
 import statistics
-import subprocess
-import tempfile
 import time
 
 os.environ.setdefault("RAYON_NUM_THREADS", "2")
@@ -19,6 +16,7 @@ import numpy as np  # noqa: E402
 import pysplashsurf  # noqa: E402
 from rosbags.rosbag1 import Reader  # noqa: E402
 from rosbags.typesys import Stores, get_typestore  # noqa: E402
+from tracking_report import spacing_of, track  # noqa: E402
 
 # Rows of the table: name, stages, largest ratio to splashsurf. None: no limit of its own, or all stages.
 ROWS = [
@@ -75,12 +73,7 @@ def splashsurf_seconds(frames, spacing):
 
 def tracker_seconds(data, spacing, last):
     """CPU seconds of each stage, for each frame after the first."""
-    with tempfile.TemporaryDirectory() as folder:
-        report = pathlib.Path(folder) / "report.jsonl"
-        subprocess.run(["track_bag", "--bag", data / "melting_bunny.bag", "--mesh", data / "melting_bunny.ply",
-                        "--spacing", repr(spacing), "--last", str(last), "--out", folder, "--format", "none",
-                        "--threads", "2", "--quiet", "--report", report], check=True, stdout=subprocess.DEVNULL)
-        lines = [json.loads(line) for line in report.read_text().splitlines()]
+    lines = track(data / "melting_bunny.bag", data / "melting_bunny.ply", spacing, "--last", str(last))
     return [line["cpu_times"] for line in lines[1:]]
 
 
@@ -99,8 +92,7 @@ def print_table(tracker, splash):
 
 def main():
     arguments = parse()
-    facts = json.loads((arguments.data / "melting_bunny.json").read_text())
-    spacing = facts["r_m"]
+    spacing = spacing_of(arguments.data, "melting_bunny")
     frames = read_frames(arguments.data / "melting_bunny.bag", arguments.last)
     reconstruct(frames[0], spacing)  # Starts the threads.
     splash, tracker = [], []

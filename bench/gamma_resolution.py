@@ -5,10 +5,9 @@ in r; and what matching costs in the whole domain, at r/2, in the same frames.
 CPU seconds of all threads, mean over the frames after the first, two threads. track_bag must be in PATH.
 """
 import argparse
-import json
 import pathlib
-import subprocess
-import tempfile
+
+from tracking_report import spacing_of, track
 
 SIZES = [2.0, 1.0, 0.5, 0.25]
 LARGEST_GROWTH = {"matching": 9.0, "meshing": 4.5}
@@ -16,18 +15,13 @@ LEAST_GAIN = 5.0
 STAGES = {"matching": ["voxelization", "topology_matching"], "meshing": ["remeshing", "untangling", "upkeep"]}
 
 
-def track(data, last, settings):
+def track_armadillo(data, last, **settings):
     """The report of every frame after the first."""
-    facts = json.loads((data / "splitting_armadillo.json").read_text())
-    with tempfile.TemporaryDirectory() as folder:
-        report = pathlib.Path(folder) / "report.jsonl"
-        command = ["track_bag", "--bag", data / "splitting_armadillo.bag", "--mesh", data / "splitting_armadillo.ply",
-                   "--spacing", repr(facts["r_m"]), "--last", str(last), "--out", folder, "--format", "none",
-                   "--threads", "2", "--quiet", "--report", report]
-        for name, value in settings.items():
-            command += ["--set", f"{name}={value}"]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-        return [json.loads(line) for line in report.read_text().splitlines()][1:]
+    options = ["--last", str(last)]
+    for name, value in settings.items():
+        options += ["--set", f"{name}={value}"]
+    name = "splitting_armadillo"
+    return track(data / f"{name}.bag", data / f"{name}.ply", spacing_of(data, name), *options)[1:]
 
 
 def seconds(frame, column):
@@ -43,7 +37,7 @@ def print_growth(data, last):
     print(f"{'Δx_Γ':<8}{'matching':>10}{'growth':>8}{'meshing':>10}{'growth':>8}{'unknowns':>11}{'cells anew':>12}")
     before, verdicts = None, []
     for size in SIZES:
-        frames = track(data, last, {"dx_gamma": size})
+        frames = track_armadillo(data, last, dx_gamma=size)
         row = {column: mean(frames, column) for column in STAGES}
         line = f"{size:<5g} r "
         for column, value in row.items():
@@ -60,8 +54,8 @@ def print_growth(data, last):
 
 
 def print_whole(data, last):
-    restricted = track(data, last, {"dx_gamma": 0.5})
-    whole = track(data, last, {"dx_gamma": 0.5, "matching_reach": 0})
+    restricted = track_armadillo(data, last, dx_gamma=0.5)
+    whole = track_armadillo(data, last, dx_gamma=0.5, matching_reach=0)
     both = [(r, w) for r, w in zip(restricted, whole) if r["topology"]["unknowns"] and w["topology"]["unknowns"]]
     if not both:
         print(f"no frame up to {last} has anything to match")

@@ -5,13 +5,12 @@ Up to frame 3 the drops have not met, so the mesh stays the same and memory shou
 apart every time; the mesh then grows, and memory with it.
 """
 import argparse
-import json
 import pathlib
-import subprocess
 import tempfile
 
 from rosbags.rosbag1 import Reader, Writer
 from rosbags.typesys import Stores, get_typestore
+from tracking_report import spacing_of, track
 
 LARGEST_GROWTH = 0.01  # Of the peak, from frame 250 to the last.
 
@@ -37,14 +36,10 @@ def main():
     parser.add_argument("--frames", type=int, default=1000, help="how many frames (default 1000)")
     parser.add_argument("--turn", type=int, default=3, help="frame at which it turns back (default 3)")
     arguments = parser.parse_args()
-    facts = json.loads((arguments.data / "two_drops.json").read_text())
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        write_loop(arguments.data / "two_drops.bag", folder / "loop.bag", arguments.turn, arguments.frames)
-        subprocess.run(["track_bag", "--bag", folder / "loop.bag", "--mesh", arguments.data / "two_drops.ply", "--spacing",
-                        repr(facts["r_m"]), "--out", folder, "--format", "none", "--threads", "2", "--quiet",
-                        "--report", folder / "report.jsonl"], check=True, stdout=subprocess.DEVNULL)
-        lines = [json.loads(line) for line in (folder / "report.jsonl").read_text().splitlines()]
+    with tempfile.TemporaryDirectory() as folder:
+        loop = pathlib.Path(folder) / "loop.bag"
+        write_loop(arguments.data / "two_drops.bag", loop, arguments.turn, arguments.frames)
+        lines = track(loop, arguments.data / "two_drops.ply", spacing_of(arguments.data, "two_drops"))
     peaks = [line["peak_rss_bytes"] / 2**20 for line in lines]
     triangles = [line["triangles"] for line in lines]
     print(f"two_drops to frame {arguments.turn} and back, {len(lines)} frames:")

@@ -2,7 +2,8 @@
 """Runs clang-tidy on several files at once, and not again on files that it found clean.
 
 A file counts as clean as long as neither it, nor what it includes of the project, nor its compiler options, nor
-.clang-tidy, nor the version of clang-tidy has changed. Headers of the system are not looked at.
+.clang-tidy, nor the version of clang-tidy has changed. Headers of the system are not looked at: a plugin keeps
+clang-tidy out of them.
 """
 import argparse
 import concurrent.futures
@@ -16,6 +17,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(rb'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+PLUGIN = ROOT / "scripts" / "own_code_only.cpp"
 FINDING = re.compile(r"^[^\s:]+:\d+:\d+: (?:warning|error): ")
 
 
@@ -30,13 +32,14 @@ def main():
     keys = keys_of(commands, arguments.build.resolve())
     stamps = arguments.build / "analysed"
     stamps.mkdir(exist_ok=True)
+    plugin = build_plugin(stamps)
     changed = [file for file in commands if not (stamps / keys[file]).exists()]
     print(f"{len(changed)} of {len(commands)} files to analyse", flush=True)
 
     said = set()
     unclean = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        runs = {pool.submit(analyse, file, arguments.build): file for file in changed}
+        runs = {pool.submit(analyse, file, arguments.build, plugin): file for file in changed}
         for run in concurrent.futures.as_completed(runs):
             is_clean, findings = run.result()
             # Every source that includes a header finds the same in it.
@@ -48,6 +51,23 @@ def main():
                 (stamps / keys[runs[run]]).touch()
             unclean += not is_clean
     sys.exit(f"{unclean} files are not clean" if unclean else 0)
+
+
+def version_of_clang_tidy():
+    return subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
+
+
+def build_plugin(folder):
+    """Compiles the plugin, unless it is there for this version of clang-tidy."""
+    digest = hashlib.sha256(version_of_clang_tidy() + PLUGIN.read_bytes()).hexdigest()
+    library = folder / f"own_code_only_{digest[:16]}.so"
+    if not library.exists():
+        run = subprocess.run(["llvm-config", "--cxxflags"], check=True, capture_output=True, text=True)
+        flags = [*shlex.split(run.stdout), "-std=c++17", "-O1", "-fPIC", "-shared"]
+        made = library.with_suffix(".part")
+        subprocess.run(["c++", *flags, str(PLUGIN), "-o", str(made)], check=True)
+        made.rename(library)
+    return library
 
 
 def read_commands(build, wanted):
@@ -63,8 +83,7 @@ def read_commands(build, wanted):
 
 def keys_of(commands, build):
     """What the outcome for every source depends on, as a hash."""
-    tool = subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
-    settings = tool + (ROOT / ".clang-tidy").read_bytes()
+    settings = version_of_clang_tidy() + PLUGIN.read_bytes()
     contents = {}
 
     def content(path):
@@ -87,15 +106,19 @@ def keys_of(commands, build):
                     seen.add(found)
                     waiting.append(found)
         digest = hashlib.sha256(settings + command.encode())
+        for folder in source.parents:
+            if ROOT in [folder, *folder.parents]:
+                digest.update(b"\0" + (content(folder / ".clang-tidy") or b""))
         for file in sorted(seen):
             digest.update(b"\0" + str(file).encode() + b"\0" + content(file))
         keys[source] = digest.hexdigest()
     return keys
 
 
-def analyse(source, build):
+def analyse(source, build, plugin):
     """Whether a source is clean, and the findings, each with the lines that explain it."""
-    run = subprocess.run(["clang-tidy", "-quiet", "-p", str(build), str(source)], capture_output=True, text=True)
+    command = ["clang-tidy", "-quiet", f"--load={plugin}", "-p", str(build), str(source)]
+    run = subprocess.run(command, capture_output=True, text=True)
     findings = []
     for line in run.stdout.splitlines():
         if FINDING.match(line):

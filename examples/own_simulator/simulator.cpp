@@ -31,8 +31,9 @@ int main(int argc, char** argv) {
   while (ros::ok() && publisher.getNumSubscribers() == 0) ros::WallDuration(0.1).sleep();
 
   std::vector<Particle> particles;
-  for (std::uint32_t i = 0; i < 1000; ++i) {
-    particles.push_back({0.05F * (i % 10), 0.05F * (i / 10 % 10), 0.05F * (i / 100), i});
+  for (std::uint32_t id = 0; id < 1000; ++id) {
+    const std::uint32_t row = id / 10, layer = id / 100;
+    particles.push_back({0.05F * (id % 10), 0.05F * (row % 10), 0.05F * layer, id});
   }
   ros::WallRate rate(30);  // Not faster than the tracker; simulated time is that of the stamps.
   for (int frame = 0; ros::ok() && frame < 20; ++frame) {

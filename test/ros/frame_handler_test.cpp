@@ -1,34 +1,18 @@
 #include "particle_surface_tracker/ros/frame_handler.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <boost/make_shared.hpp>
 
+#include "frame_handler_cases.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker::test {
 namespace {
-
-constexpr double r = 0.2;
-
-// A ball of liquid of radius 1 that moves by r / 8 along x in every frame.
-sensor_msgs::PointCloud2 ball_cloud(int n) {
-  ParticleFrame frame =
-      fill_with_particles(Vec3d(-1, -1, -1), Vec3d(1, 1, 1), r, 0.0, 0, [](const Vec3d& x) { return x.norm() < 0.95; });
-  for (Vec3f& position : frame.positions) position.x() += static_cast<float>(n * r / 8);
-  frame.stamp_ns = 1000000000 + n;
-  return to_point_cloud(frame, "tank");
-}
-
-FrameHandlerOptions ball_options() {
-  FrameHandlerOptions options;
-  options.parameters.particle_spacing = r;
-  options.mesh = make_sphere(Vec3d::Zero(), 1.0, 3);
-  return options;
-}
 
 double mean_x(const TriangleMesh& mesh) {
   double sum = 0.0;
@@ -101,15 +85,6 @@ TEST(FrameHandler, WithoutAMeshTheImplicitSurfaceIsTracked) {
             handler.tracker().implicit_surface()->triangulation.vertices.size());
 }
 
-TEST(FrameHandler, SpacingIsEstimatedFromTheFirstCloud) {
-  FrameHandlerOptions options = ball_options();
-  options.parameters.particle_spacing = 0.0;
-  options.estimate_spacing = true;
-  FrameHandler handler(options);
-  handler.handle(ball_cloud(0), 0);
-  EXPECT_NEAR(handler.tracker().parameters().particle_spacing, r, 1e-6);
-}
-
 TEST(FrameHandler, RefinedMeshHasNoEdgeLongerThanTheSpacing) {
   FrameHandlerOptions options = ball_options();
   options.mesh = make_sphere(Vec3d::Zero(), 1.0, 2);
@@ -150,127 +125,6 @@ TEST(FrameHandler, FramesOfOneStampHaveNoVelocities) {
   handler.handle(cloud, 0);
   handler.handle(cloud, 1);
   EXPECT_TRUE(handler.message({false, true}).velocities.empty());
-}
-
-TEST(FrameHandler, ParametersThatCannotChangeWaitForTheReset) {
-  FrameHandlerOptions options = ball_options();
-  options.estimate_spacing = true;
-  FrameHandler handler(options);
-  Parameters parameters = options.parameters;
-  parameters.dx_phi = 0.4;
-  EXPECT_TRUE(handler.set_parameters(parameters).empty());
-  handler.handle(ball_cloud(0), 0);
-  EXPECT_EQ(handler.tracker().parameters().dx_phi, 0.4);
-
-  parameters.tau = 0.6;
-  parameters.dx_phi = 0.3;
-  EXPECT_EQ(handler.set_parameters(parameters), std::vector<std::string>{"dx_phi"});
-  EXPECT_EQ(handler.tracker().parameters().tau, 0.6);
-  EXPECT_EQ(handler.tracker().parameters().dx_phi, 0.4);
-  EXPECT_NEAR(handler.tracker().parameters().particle_spacing, r, 1e-6);
-  handler.reset();
-  handler.handle(ball_cloud(0), 0);
-  EXPECT_EQ(handler.tracker().parameters().dx_phi, 0.3);
-  EXPECT_EQ(handler.tracker().parameters().tau, 0.6);
-
-  parameters.epsilon = 2.0;
-  EXPECT_THROW(handler.set_parameters(parameters), ParameterError);
-  EXPECT_EQ(handler.tracker().parameters().epsilon, Parameters().epsilon);
-}
-
-TEST(FrameHandler, BadParametersAreRefusedAtOnce) {
-  FrameHandlerOptions options = ball_options();
-  options.parameters.particle_spacing = 0.0;
-  EXPECT_THROW(FrameHandler{options}, ParameterError);
-  options.estimate_spacing = true;
-  EXPECT_NO_THROW(FrameHandler{options});
-  options.parameters.epsilon = 2.0;
-  EXPECT_THROW(FrameHandler{options}, ParameterError);
-}
-
-Checkpoint saved(const FrameHandler& handler) {
-  Checkpoint checkpoint;
-  handler.save(checkpoint);
-  return checkpoint;
-}
-
-void expect_same_messages(const FrameHandler& a, const FrameHandler& b) {
-  const TrackedMesh x = a.message({true, true});
-  const TrackedMesh y = b.message({true, true});
-  EXPECT_EQ(x.header.stamp, y.header.stamp);
-  EXPECT_EQ(x.header.frame_id, y.header.frame_id);
-  EXPECT_EQ(x.vertices, y.vertices);
-  EXPECT_EQ(x.triangles, y.triangles);
-  EXPECT_EQ(x.normals, y.normals);
-  EXPECT_EQ(x.velocities, y.velocities);
-  EXPECT_EQ(x.delta, y.delta);
-  EXPECT_EQ(x.ids, y.ids);
-  EXPECT_EQ(x.topology_version, y.topology_version);
-}
-
-TEST(FrameHandler, GoesOnFromACheckpointWithTheSameMessages) {
-  FrameHandler handler(ball_options());
-  for (const int n : {0, 1, 2}) handler.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
-  FrameHandlerOptions without_mesh = ball_options();
-  without_mesh.mesh.reset();
-  without_mesh.estimate_spacing = true;
-  FrameHandler resumed(without_mesh);
-  resumed.load(saved(handler));
-  EXPECT_TRUE(resumed.started());
-  EXPECT_FALSE(resumed.message({false, true}).velocities.empty());
-  expect_same_messages(resumed, handler);
-  for (const int n : {3, 4}) {
-    handler.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
-    resumed.handle(ball_cloud(n), static_cast<std::uint64_t>(n));
-    expect_same_messages(resumed, handler);
-  }
-}
-
-TEST(FrameHandler, ACheckpointThatDoesNotFitChangesNothing) {
-  FrameHandler handler(ball_options());
-  handler.handle(ball_cloud(0), 0);
-  const Checkpoint checkpoint = saved(handler);
-  FrameHandlerOptions other = ball_options();
-  other.parameters.dx_phi = 0.4;
-  other.parameters.dx_gamma = 0.6;
-  other.parameters.tau = 0.4;
-  FrameHandler different(other);
-  try {
-    different.load(checkpoint);
-    ADD_FAILURE() << "it was taken over";
-  } catch (const ParameterError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("dx_phi is 0.5 there and 0.4 here"), std::string::npos) << text;
-    EXPECT_NE(text.find("dx_gamma"), std::string::npos) << text;
-    EXPECT_EQ(text.find("tau"), std::string::npos) << "it can change at any time: " << text;
-  }
-  EXPECT_FALSE(different.started());
-
-  Checkpoint foreign = checkpoint;
-  foreign.sections.clear();
-  EXPECT_THROW(handler.load(foreign), InputError);
-  foreign.sections = checkpoint.sections;
-  foreign.sections.begin()->second.pop_back();
-  EXPECT_THROW(handler.load(foreign), InputError);
-  foreign = checkpoint;
-  foreign.tracker.frame.band = -1.0;
-  EXPECT_THROW(handler.load(foreign), TrackingError);
-  EXPECT_EQ(handler.message().header.stamp, ros::Time(1, 0));
-  EXPECT_EQ(handler.message().topology_version, 1u);
-}
-
-TEST(FrameHandler, WhatCanChangeStaysAsItIsHereAndVersionsGoUp) {
-  FrameHandler handler(ball_options());
-  handler.handle(ball_cloud(0), 0);
-  const Checkpoint checkpoint = saved(handler);
-  Parameters parameters = ball_options().parameters;
-  parameters.tau = 0.4;
-  handler.set_parameters(parameters);
-  handler.handle(ball_cloud(1), 1);
-  handler.load(checkpoint);
-  EXPECT_EQ(handler.tracker().parameters().tau, 0.4);
-  EXPECT_EQ(handler.message().header.stamp, ros::Time(1, 0));
-  EXPECT_EQ(handler.message().topology_version, 2u) << "other triangles may have had version 1 since";
 }
 
 TEST(FrameHandler, LookingAheadChangesNothing) {

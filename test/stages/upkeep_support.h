@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/stages/upkeep.h"
 #include "sequences/mesh_judge.h"
+#include "support/detailed_body.h"
 
 namespace particle_surface_tracker::test {
 
@@ -85,6 +87,21 @@ inline double volume_of(const TriangleMesh& mesh) {
 
 inline SurfaceDefects defects_of(const TriangleMesh& mesh) {
   return find_surface_defects(mesh.vertex_count(), mesh.triangles());
+}
+
+/// A body with needles and folds of its own; made once, for that takes a second.
+inline const TriangleMesh& detailed_mesh() {
+  static const TriangleMesh mesh = DetailedBody(0.1).mesh();
+  return mesh;
+}
+
+inline void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
+  EXPECT_EQ(a.positions(), b.positions());
+  EXPECT_EQ(a.triangles(), b.triangles());
+  EXPECT_EQ(a.ids(), b.ids());
+  ASSERT_EQ(a.attributes().count(), b.attributes().count());
+  for (std::size_t n = 0; n < a.attributes().count(); ++n)
+    EXPECT_EQ(a.attributes()[n].values, b.attributes()[n].values);
 }
 
 }  // namespace particle_surface_tracker::test

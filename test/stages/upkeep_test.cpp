@@ -1,107 +1,20 @@
 #include "particle_surface_tracker/stages/upkeep.h"
 
-#include <cstdlib>
-#include <new>
-#include <random>
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "particle_surface_tracker/core/error.h"
-#include "support/detailed_body.h"
 #include "support/shapes.h"
 #include "upkeep_support.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Not inlined: the compiler would take one without the other for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace particle_surface_tracker {
 namespace {
 
 using ::testing::ElementsAre;
-
-void expect_same_bits(const TriangleMesh& a, const TriangleMesh& b) {
-  EXPECT_EQ(a.positions(), b.positions());
-  EXPECT_EQ(a.triangles(), b.triangles());
-  EXPECT_EQ(a.ids(), b.ids());
-  ASSERT_EQ(a.attributes().count(), b.attributes().count());
-  for (std::size_t n = 0; n < a.attributes().count(); ++n)
-    EXPECT_EQ(a.attributes()[n].values, b.attributes()[n].values);
-}
-
-/// A body with needles and folds of its own; made once, for that takes a second.
-const TriangleMesh& detailed_mesh() {
-  static const TriangleMesh mesh = test::DetailedBody(0.1).mesh();
-  return mesh;
-}
-
-/// A sphere and a torus with every vertex moved by up to `amount` of its edges' length, at random.
-TriangleMesh make_soup(std::uint32_t seed, double amount) {
-  TriangleMesh mesh =
-      test::joined({test::make_sphere({0, 0, 0}, 0.6, 5), test::make_torus({0.9, 0.1, 0.2}, 0.5, 0.16, 96, 32)});
-  note_birth(mesh);
-  std::mt19937 random(seed);
-  const double edge = 0.033;
-  test::move_vertices(mesh, [&](const Vec3d& x) {
-    Vec3d shift;
-    for (double& s : shift) s = static_cast<double>(random()) / 2147483648.0 - 1.0;
-    return Vec3d(x + amount * edge * shift);
-  });
-  return mesh;
-}
-
-TEST(Upkeep, LeavesAMeshAtRestAloneBitForBit) {
-  TriangleMesh mesh = detailed_mesh();
-  const Parameters parameters = test::parameters_for_cells_of(0.05);
-  note_birth(mesh);
-  const TriangleMesh before = mesh;
-  for (int n = 0; n < 3; ++n) EXPECT_FALSE(keep_up(mesh, parameters).has_changes());
-  expect_same_bits(mesh, before);
-}
-
-TEST(Upkeep, LeavesNeedlesCapsFoldsAndTinyTrianglesOfBirthAlone) {
-  // All limits are far beyond what this mesh has, but it was born so.
-  TriangleMesh mesh =
-      test::joined({test::make_box({0, 0, 0}, {1, 0.001, 1}), test::make_torus({3, 0, 0}, 1, 0.01, 8, 40),
-                    test::make_sphere({0, 3, 0}, 1e-4, 4), test::make_tetrahedron(50.0)});
-  test::move_vertices(mesh, [](const Vec3d& x) { return Vec3d(x.x(), 0.02 * x.y(), x.z() + 30.0 * x.x()); });
-  ASSERT_LT(test::shape_of(mesh).smallest_angle, 0.01);
-  ASSERT_GT(test::shape_of(mesh).largest_fold, 178.0);
-  const TriangleMesh before = mesh;
-  const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.5));
-  EXPECT_FALSE(report.has_changes());
-  EXPECT_EQ(report.refused, 0U);
-  EXPECT_EQ(mesh.positions(), before.positions());
-  EXPECT_EQ(mesh.triangles(), before.triangles());
-}
-
-TEST(Upkeep, AllocatesNothingWhenThereIsNothingToDo) {
-  TriangleMesh mesh = detailed_mesh();
-  const Parameters parameters = test::parameters_for_cells_of(0.05);
-  UpkeepMemory memory;
-  keep_up(mesh, parameters, memory);
-  const std::size_t before = allocations;
-  keep_up(mesh, parameters, memory);
-  EXPECT_EQ(allocations, before);
-}
 
 TEST(Upkeep, SplitsEveryEdgeOfAGrownTetrahedronOnceAtItsMidpoint) {
   TriangleMesh mesh = test::make_tetrahedron(1.0);
@@ -140,7 +53,7 @@ TEST(Upkeep, LeavesAComponentAloneThatIsTooSmall) {
   const TriangleMesh before = mesh;
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(1.0));
   EXPECT_EQ(report.refused, 6U);
-  expect_same_bits(mesh, before);
+  test::expect_same_bits(mesh, before);
 }
 
 TEST(Upkeep, NeverShrinksAComponentBelowATetrahedron) {
@@ -205,20 +118,6 @@ TEST(Upkeep, KeepsRidgesWhenItCollapsesAndTheKeptVertexUntouched) {
   EXPECT_NEAR(test::volume_of(mesh), 4.0 / 3.0, 1e-6);
 }
 
-/// Distances of new vertices to the surface that they belong to.
-struct Offsets {
-  double mean = 0.0, largest = 0.0;
-
-  template <typename Distance>
-  Offsets(const TriangleMesh& mesh, const UpkeepReport& report, Distance&& distance) {
-    for (const std::uint32_t v : report.fresh) {
-      const double offset = std::abs(distance(Vec3d(mesh.positions()[v].cast<double>())));
-      mean += offset / static_cast<double>(report.fresh.size());
-      largest = std::max(largest, offset);
-    }
-  }
-};
-
 TEST(Upkeep, CollapsesAFanOfThousandsOfTriangles) {
   // Two cones with their bases joined; the rim shrinks, so that its edges become short. A cell of Γ that is filled from
   // one point can have such a fan.
@@ -238,105 +137,6 @@ TEST(Upkeep, CollapsesAFanOfThousandsOfTriangles) {
   const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.1));
   EXPECT_GT(report.collapses + report.sliver_collapses, kRim / 2);
   EXPECT_TRUE(test::defects_of(mesh).none());
-}
-
-TEST(Upkeep, PutsNewVerticesOnTheSmoothSurfaceOfARegularMesh) {
-  TriangleMesh mesh = test::make_torus(Vec3d::Zero(), 1.0, 0.4, 100, 40);
-  note_birth(mesh);
-  test::scale(mesh, Vec3d::Constant(2.0625));
-  const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.05));
-  EXPECT_EQ(report.splits, 4000U) << "the longest edge of every vertex: the diagonals, each once";
-  const Offsets offsets(
-      mesh, report, [](const Vec3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 2.0625, x.z()) - 0.4 * 2.0625; });
-  // The middles of the diagonals lie up to 3.0e-3 below the surface.
-  EXPECT_LT(offsets.largest, 3e-5);
-}
-
-TEST(Upkeep, PutsNewVerticesNearTheSmoothSurfaceOfAnIrregularMesh) {
-  TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 1.0, 4);
-  note_birth(mesh);
-  test::scale(mesh, Vec3d::Constant(2.5));
-  const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.1));
-  ASSERT_GT(report.splits, 1000U);
-  const Offsets offsets(mesh, report, [](const Vec3d& x) { return x.norm() - 2.5; });
-  // The middles of the edges lie up to 4.6e-3 below the sphere, 3.6e-3 on average. The butterfly is not exact here: the
-  // triangles change their shape abruptly where the octahedron had its edges, and what is split again has a vertex of
-  // valence 4 with unequal edges.
-  EXPECT_LT(offsets.mean, 7e-4);
-  EXPECT_LT(offsets.largest, 3.5e-3);
-}
-
-TEST(Upkeep, AttributesFollowAndUntouchedVerticesKeepEverything) {
-  TriangleMesh mesh = detailed_mesh();
-  const std::size_t texcoord = mesh.attributes().add(TriangleMesh::texcoord_name, 2, {0.0F, 0.0F});
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-    mesh.delta()[v] = static_cast<float>(v);
-    mesh.attributes()[texcoord].values[2 * v] = mesh.positions()[v].x();
-    mesh.attributes()[texcoord].values[2 * v + 1] = mesh.positions()[v].y();
-  }
-  note_birth(mesh);
-  const TriangleMesh before = mesh;
-  const Vec3d center = test::DetailedBody(0.1).center();
-  // Only one side is drawn out, to four times its length at the far end.
-  test::move_vertices(mesh, [&](const Vec3d& x) {
-    const double out = x.x() - center.x();
-    return Vec3d(x + (out > 0.0 ? out * out : 0.0) * Vec3d::UnitX());
-  });
-  const TriangleMesh moved = mesh;
-  const UpkeepReport report = keep_up(mesh, test::parameters_for_cells_of(0.05));
-  ASSERT_GT(report.splits, 100U);
-  EXPECT_TRUE(test::defects_of(mesh).none());
-
-  std::vector<std::uint32_t> fresh;
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    const std::uint32_t id = mesh.ids()[v];
-    EXPECT_TRUE(v == 0 || id > mesh.ids()[v - 1]) << "the order is kept, and new vertices come last";
-    if (id >= before.vertex_count() || mesh.positions()[v] != moved.positions()[id]) {
-      fresh.push_back(v);
-      // Coordinates at rest, carried as texture coordinates, stay those of the place that the vertex is at.
-      EXPECT_NEAR(mesh.attributes()[texcoord].values[2 * v + 1], mesh.positions()[v].y(), 0.03);
-    } else {
-      EXPECT_EQ(mesh.delta()[v], before.delta()[id]);
-      EXPECT_EQ(mesh.attributes()[texcoord].values[2 * v], before.attributes()[texcoord].values[2 * id]);
-    }
-  }
-  EXPECT_EQ(report.fresh, fresh);
-}
-
-TEST(Upkeep, MendsRandomSoupsAndThenLeavesThemAlone) {
-  const Parameters parameters = test::parameters_for_cells_of(0.05);
-  UpkeepMemory shared;
-  for (const std::uint32_t seed : {1U, 2U}) {
-    for (const double amount : {0.3, 1.0}) {
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", moved by up to " << amount << " edges");
-      TriangleMesh mesh = make_soup(seed, amount);
-      TriangleMesh same = mesh;
-      const UpkeepReport report = keep_up(mesh, parameters, shared);
-      EXPECT_TRUE(report.has_changes());
-      EXPECT_TRUE(test::defects_of(mesh).none());
-      for (const Triangle& t : mesh.triangles()) {
-        for (std::size_t k = 0; k < 3; ++k) ASSERT_NE(mesh.positions()[t[k]], mesh.positions()[t[(k + 1) % 3]]);
-      }
-      keep_up(same, parameters);
-      expect_same_bits(mesh, same);
-
-      const TriangleMesh before = mesh;
-      EXPECT_FALSE(keep_up(mesh, parameters).has_changes());
-      expect_same_bits(mesh, before);
-    }
-  }
-}
-
-TEST(Upkeep, GivesTheSameBytesForAnyNumberOfThreads) {
-  const Parameters parameters = test::parameters_for_cells_of(0.05);
-  std::vector<TriangleMesh> meshes;
-  for (const std::size_t threads : {1U, 2U, 5U}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    meshes.push_back(make_soup(7, 1.0));
-    keep_up(meshes.back(), parameters);
-  }
-  expect_same_bits(meshes[1], meshes[0]);
-  expect_same_bits(meshes[2], meshes[0]);
 }
 
 TEST(Upkeep, RefusesMeshesThatAreNotClosedManifolds) {

@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "particle_surface_tracker/tracker/tracker.h"
+#include "support/parameters.h"
+#include "tracker_cases.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+using test::r;
+using ::testing::HasSubstr;
+
+TEST(TrackerParticles, WaitsWhileThereAreNoParticlesAndGoesOnWhenTheyReturn) {
+  const TriangleMesh mesh = test::rippled_ball();
+  const ParticleFrame particles = test::ball_of_particles();
+  Tracker tracker(test::parameters_with_spacing(r));
+  tracker.start(mesh, particles);
+  const FrameReport gone = tracker.advance(ParticleFrame{}, 1);
+  EXPECT_EQ(gone.particles, 0u);
+  EXPECT_EQ(gone.particles_gone, particles.size());
+  ASSERT_EQ(gone.warnings.size(), 1u);
+  EXPECT_THAT(gone.warnings[0], HasSubstr("no particles"));
+  EXPECT_EQ(tracker.mesh().positions(), mesh.positions());
+  const FrameReport back = tracker.advance(test::shifted(particles, {0.1, 0, 0}), 2);
+  EXPECT_EQ(back.flagged_vertices, 0u);
+  double mean = 0.0;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+    mean += tracker.mesh().positions()[v].x() - mesh.positions()[v].x();
+  EXPECT_NEAR(mean / static_cast<double>(mesh.vertex_count()), 0.1, 1e-3);
+}
+
+TEST(TrackerParticles, RecycledIdsAndTeleportsMoveNothing) {
+  const TriangleMesh mesh = test::rippled_ball();
+  const ParticleFrame particles = test::ball_of_particles();
+  Tracker tracker(test::parameters_with_spacing(r));
+  tracker.start(mesh, particles);
+  ParticleFrame next = test::shifted(particles, {0.02, 0, 0});
+  next.positions[10] += Vec3f(0, 50, 0);
+  next.positions[11] += Vec3f(0, -1.5f, 0);
+  const FrameReport report = tracker.advance(next, 1);
+  EXPECT_EQ(report.particles_born, 2u);
+  EXPECT_EQ(report.particles_gone, 2u);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    ASSERT_LT((tracker.mesh().positions()[v] - mesh.positions()[v]).norm(), 0.5 * r);
+  }
+}
+
+TEST(TrackerParticles, WithOtherIdsTheMeshIsNotAdvectedAndTheReportSaysSo) {
+  Tracker tracker(test::parameters_with_spacing(r));
+  const ParticleFrame particles = test::ball_of_particles();
+  tracker.start(test::rippled_ball(), particles);
+  ParticleFrame strangers = particles;
+  for (std::uint32_t& id : strangers.ids) id += 1000000;
+  const FrameReport report = tracker.advance(strangers, 1);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0], HasSubstr("not advected"));
+  EXPECT_EQ(report.flagged_vertices, 0u);
+}
+
+TEST(TrackerParticles, FollowsASingleParticle) {
+  const auto at = [](float x) { return make_particle_frame(0, {{x, 0, 0}}, {7}); };
+  Tracker tracker(test::parameters_with_spacing(r));
+  tracker.start_from_particles(at(0.0f));
+  const std::size_t vertices = tracker.mesh().vertex_count();
+  EXPECT_GT(vertices, 20u);
+  for (int frame = 1; frame <= 20; ++frame) {
+    const FrameReport report =
+        tracker.advance(at(0.033f * static_cast<float>(frame)), static_cast<std::uint64_t>(frame));
+    EXPECT_EQ(report.flagged_vertices, 0u);
+    EXPECT_EQ(report.components, 1u);
+  }
+  Vec3d center = Vec3d::Zero();
+  for (const Vec3f& p : tracker.mesh().positions()) center += p.cast<double>() / static_cast<double>(vertices);
+  EXPECT_LT((center - Vec3d(0.66, 0, 0)).norm(), 0.1 * r);
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "particle_surface_tracker/core/mesh_measures.h"
+#include "particle_surface_tracker/tracker/tracker.h"
+#include "support/parameters.h"
+#include "support/shapes.h"
+#include "tracker_cases.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+using test::r;
+
+TEST(TrackerTopology, FlagsVerticesWhoseLiquidHasGone) {
+  // A second drop vanishes.
+  const ParticleFrame both =
+      test::fill_with_particles(Vec3d(-0.6, -0.6, -0.6), Vec3d(2.6, 0.6, 0.6), r, 0.1, 4,
+                                [](const Vec3d& x) { return std::min(x.norm(), (x - Vec3d(2, 0, 0)).norm()) < 0.5; });
+  ParticleFrame one;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    if (both.positions[i].x() > 1.0f) continue;
+    one.positions.push_back(both.positions[i]);
+    one.ids.push_back(both.ids[i]);
+  }
+  // Where topology is kept, its mesh is left behind, flagged, and does not jump over to the first.
+  Parameters keep = test::parameters_with_spacing(r);
+  keep.topology = TopologyMode::kKeep;
+  Tracker tracker(keep);
+  tracker.start_from_particles(both);
+  const std::vector<Vec3f> before = tracker.mesh().positions();
+  const FrameReport report = tracker.advance(one, 1);
+  const auto left_behind = static_cast<std::size_t>(
+      std::count_if(before.begin(), before.end(), [](const Vec3f& p) { return p.x() > 1.0f; }));
+  EXPECT_EQ(report.flagged_vertices, left_behind);
+  EXPECT_EQ(report.unreached_vertices, left_behind);
+  EXPECT_GT(report.flagged_cells, 0u);
+  EXPECT_EQ(tracker.mesh().positions(), before);
+
+  // Else it goes with its liquid, and the first drop keeps every bit.
+  Tracker matching(test::parameters_with_spacing(r));
+  matching.start_from_particles(both);
+  matching.advance(one, 1);
+  std::vector<Vec3f> first_drop;
+  std::copy_if(before.begin(), before.end(), std::back_inserter(first_drop),
+               [](const Vec3f& p) { return p.x() < 1.0f; });
+  EXPECT_EQ(matching.mesh().positions(), first_drop);
+}
+
+TEST(TrackerTopology, RecordsTheCellsOfAMergeAndTracksAsWithout) {
+  const TriangleMesh mesh =
+      test::joined({test::make_sphere({-0.56, 0.01, 0.02}, 0.5, 4), test::make_sphere({0.56, -0.02, 0.01}, 0.5, 4)});
+  const ParticleFrame drops =
+      test::fill_with_particles({-1.2, -0.6, -0.6}, {1.2, 0.6, 0.6}, r, 0.1, 3, [](const Vec3d& x) {
+        return std::min((x - Vec3d(-0.56, 0.01, 0.02)).norm(), (x - Vec3d(0.56, -0.02, 0.01)).norm()) < 0.5 - 0.1 * r;
+      });
+  Tracker tracker(test::parameters_with_spacing(r));
+  Tracker other(test::parameters_with_spacing(r));
+  tracker.start(mesh, drops);
+  other.start(mesh, drops);
+  EXPECT_EQ(tracker.topology_cells(), nullptr);
+  tracker.record_topology_cells(true);
+  std::size_t marked = 0;
+  for (int n = 1; n <= 8; ++n) {
+    const ParticleFrame frame = test::moved(
+        drops, [n](const Vec3d& x) { return Vec3d(x - Vec3d(x.x() > 0.0 ? 0.02 * n : -0.02 * n, 0.0, 0.0)); });
+    const FrameReport report = tracker.advance(frame, n);
+    other.advance(frame, n);
+    ASSERT_EQ(tracker.mesh().positions(), other.mesh().positions());
+    ASSERT_EQ(tracker.mesh().triangles(), other.mesh().triangles());
+    const std::shared_ptr<const TopologyCells> cells = tracker.topology_cells();
+    ASSERT_NE(cells, nullptr);
+    EXPECT_EQ(cells->cell_size, 0.5 * r);
+    if (report.topology.passes == 1) {
+      EXPECT_EQ(cells->marked.size(), report.topology.remeshed_cells);
+      EXPECT_EQ(cells->unknown.nodes.size(), report.topology.unknowns);
+      EXPECT_EQ(cells->changed_nodes.size(), report.topology.changed_nodes);
+    }
+    EXPECT_TRUE(std::includes(cells->marked.begin(), cells->marked.end(), cells->front.begin(), cells->front.end()));
+    marked += cells->marked.size();
+  }
+  EXPECT_EQ(measure_mesh(tracker.mesh().positions(), tracker.mesh().triangles()).components, 1u);
+  EXPECT_GT(marked, 0u);
+  EXPECT_EQ(other.topology_cells(), nullptr);
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker
