@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""CPU time of every stage of the tracker, relative to what splashsurf needs to reconstruct the same frames.
+"""CPU time of the tracker, relative to what splashsurf needs to reconstruct the same frames: every stage on melting_bunny,
+and whole frames of all sequences that splash or split.
 
-Both work on melting_bunny in one run and in turns: splashsurf on all frames, then track_bag, and so on. CPU seconds are
-those of the process, all threads, two threads each; medians over frames and turns. track_bag must be in PATH.
+Both work in one run and in turns: splashsurf on all frames of a sequence, then track_bag, and so on. CPU seconds are those
+of the process, all threads, two threads each. track_bag must be in PATH.
 """
 import argparse
 import os
@@ -18,7 +19,10 @@ from rosbags.rosbag1 import Reader  # noqa: E402
 from rosbags.typesys import Stores, get_typestore  # noqa: E402
 from tracking_report import spacing_of, track  # noqa: E402
 
-# Rows of the table: name, stages, largest ratio to splashsurf. None: no limit of its own, or all stages.
+# What the paper's Secs. 4 and 5 take; the rest is topology and upkeep (Secs. 6 to 8).
+SURFACE_STAGES = ["implicit_function", "triangulation", "distance_field", "advection", "projection"]
+
+# Rows of the table of stages: name, stages, largest ratio to splashsurf (medians). None: no limit of its own.
 ROWS = [
     ("implicit surface", ["implicit_function", "triangulation"], 0.20),
     ("  implicit_function", ["implicit_function"], None),
@@ -26,15 +30,23 @@ ROWS = [
     ("distance_field", ["distance_field"], 0.12),
     ("advection", ["advection"], 0.08),
     ("projection", ["projection"], 0.10),
+    ("these together", SURFACE_STAGES, 0.50),
+    ("topology_matching", ["voxelization", "topology_matching"], None),
+    ("remeshing", ["remeshing"], None),
+    ("upkeep", ["untangling", "upkeep", "stretched_detail"], None),
     ("measures", ["measures"], None),
-    ("all stages", None, 0.50),
 ]
+
+# Whole frames: largest ratio to splashsurf (means), and largest ratio of the slowest frame to the median.
+SEQUENCES = ["melting_bunny", "splitting_armadillo", "falling_objects"]
+LARGEST_RATIO = 1.0
+LARGEST_SPREAD = 4.0
 
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=pathlib.Path, required=True, help="folder with melting_bunny.bag, .ply and .json")
-    parser.add_argument("--runs", type=int, default=3, help="turns of each program (default 3)")
+    parser.add_argument("--runs", type=int, default=3, help="turns of each program on melting_bunny (default 3), once on others")
     parser.add_argument("--last", type=int, default=99, help="last frame (default 99)")
     return parser.parse_args()
 
@@ -71,35 +83,60 @@ def splashsurf_seconds(frames, spacing):
     return seconds
 
 
-def tracker_seconds(data, spacing, last):
+def tracker_seconds(data, name, spacing, last):
     """CPU seconds of each stage, for each frame after the first."""
-    lines = track(data / "melting_bunny.bag", data / "melting_bunny.ply", spacing, "--last", str(last))
+    lines = track(data / f"{name}.bag", data / f"{name}.ply", spacing, "--last", str(last))
     return [line["cpu_times"] for line in lines[1:]]
 
 
-def print_table(tracker, splash):
+def measure(data, name, last, runs):
+    """CPU seconds of splashsurf, and of the tracker by stage, for every frame and turn."""
+    spacing = spacing_of(data, name)
+    frames = read_frames(data / f"{name}.bag", last)
+    reconstruct(frames[0], spacing)  # Starts the threads.
+    splash, tracker = [], []
+    for _ in range(runs):
+        splash += splashsurf_seconds(frames, spacing)
+        tracker += tracker_seconds(data, name, spacing, last)
+    return splash, tracker
+
+
+def verdict(value, limit):
+    return f"{limit:>9.2f}  {'met' if value <= limit else 'NOT MET'}"
+
+
+def print_stages(splash, tracker):
     base = statistics.median(splash)
-    print(f"splashsurf: {1000 * base:.1f} ms CPU a frame (median of {len(splash)}; "
+    print(f"melting_bunny; splashsurf: {1000 * base:.1f} ms CPU a frame (median of {len(splash)}; "
           f"{1000 * min(splash):.1f} to {1000 * max(splash):.1f})\n")
     print(f"{'stage':<22}{'CPU ms a frame':>15}{'ratio':>9}{'at most':>9}")
     for name, stages, limit in ROWS:
-        cost = statistics.median(
-            sum(seconds for stage, seconds in times.items() if stages is None or stage in stages) for times in tracker)
+        cost = statistics.median(sum(times.get(stage, 0.0) for stage in stages) for times in tracker)
         ratio = cost / base
-        verdict = "" if limit is None else f"{limit:>9.2f}  {'met' if ratio <= limit else 'NOT MET'}"
-        print(f"{name:<22}{1000 * cost:>15.2f}{ratio:>9.3f}{verdict}")
+        print(f"{name:<22}{1000 * cost:>15.2f}{ratio:>9.3f}{'' if limit is None else verdict(ratio, limit)}")
+
+
+def print_whole_frames(name, splash, tracker):
+    base = statistics.mean(splash)
+    frames = [sum(times.values()) for times in tracker]
+    mean = statistics.mean(frames)
+    spread = max(frames) / statistics.median(frames)
+    print(f"{name:<22}{1000 * base:>15.1f}{1000 * mean:>13.1f}{mean / base:>9.3f}{verdict(mean / base, LARGEST_RATIO):<18}"
+          f"{spread:>9.2f}{verdict(spread, LARGEST_SPREAD)}", flush=True)
 
 
 def main():
     arguments = parse()
-    spacing = spacing_of(arguments.data, "melting_bunny")
-    frames = read_frames(arguments.data / "melting_bunny.bag", arguments.last)
-    reconstruct(frames[0], spacing)  # Starts the threads.
-    splash, tracker = [], []
-    for _ in range(arguments.runs):
-        splash += splashsurf_seconds(frames, spacing)
-        tracker += tracker_seconds(arguments.data, spacing, arguments.last)
-    print_table(tracker, splash)
+    measured = {"melting_bunny": measure(arguments.data, "melting_bunny", arguments.last, arguments.runs)}
+    print_stages(*measured["melting_bunny"])
+    print(f"\n{'whole frames, mean':<22}{'splashsurf ms':>15}{'tracker ms':>13}{'ratio':>9}{'at most':>9}"
+          f"{'slowest / median':>18}{'at most':>9}")
+    for name in SEQUENCES:
+        if not (arguments.data / f"{name}.bag").exists():
+            continue
+        if name not in measured:
+            measured[name] = measure(arguments.data, name, arguments.last, 1)
+        print_whole_frames(name, *measured[name])
 
 
 if __name__ == "__main__":
