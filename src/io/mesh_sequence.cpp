@@ -1,5 +1,6 @@
 #include "particle_surface_tracker/io/mesh_sequence.h"
 
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,16 +35,22 @@ FileFormat file_format(MeshFormat format) {
 
 }  // namespace
 
-MeshSequence::MeshSequence(std::string folder, MeshFormat format) : folder_(std::move(folder)), format_(format) {
+MeshSequence::MeshSequence(std::string folder, MeshFormat format, std::optional<std::uint64_t> next)
+    : folder_(std::move(folder)), format_(format) {
   make_sequence_folder(folder_);
+  if (format_ != MeshFormat::kVtp) return;
+  if (next) {
+    series_.emplace(folder_, *next);
+  } else {
+    series_.emplace(folder_);
+  }
 }
 
-std::string MeshSequence::path(std::uint64_t frame) const {
-  return frame_file(folder_, frame, file_format(format_).extension);
-}
-
-void MeshSequence::write(const TriangleMesh& mesh, std::uint64_t frame) const {
-  file_format(format_).write(path(frame), mesh);
+void MeshSequence::write(const TriangleMesh& mesh, std::uint64_t frame, std::int64_t stamp_ns) {
+  const FileFormat format = file_format(format_);
+  const std::string path = frame_file(folder_, frame, format.extension);
+  format.write(path, mesh);
+  if (series_) series_->add(std::filesystem::path(path).filename().string(), stamp_ns);
 }
 
 }  // namespace particle_surface_tracker

@@ -65,12 +65,4 @@ void write_vtp(const std::string& path, const TriangleMesh& mesh) {
   write_file_whole(path, arrays.file_around(piece + "</Piece>\n"));
 }
 
-void write_pvd(const std::string& path, const std::vector<TimedFile>& files) {
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  for (const TimedFile& file : files) {
-    xml += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", file.time, file.name);
-  }
-  write_file_whole(path, xml + "</Collection>\n</VTKFile>\n");
-}
-
 }  // namespace particle_surface_tracker

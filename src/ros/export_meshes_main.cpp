@@ -1,12 +1,10 @@
 // export_meshes: writes the tracked meshes of a bag as a sequence of files.
 
 #include <cstdint>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <particle_surface_tracker/TrackedMesh.h>
@@ -16,8 +14,8 @@
 
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_sequence.h"
-#include "particle_surface_tracker/io/vtp_writer.h"
 #include "particle_surface_tracker/ros/mesh_conversion.h"
+#include "particle_surface_tracker/ros/time_conversion.h"
 #include "particle_surface_tracker/ros/tracking_bag_writer.h"
 
 namespace {
@@ -47,26 +45,23 @@ TrackedMesh message_in(const rosbag::MessageInstance& instance) {
   return *message;
 }
 
-/// Time and file of every mesh that was written.
-std::vector<TimedFile> write_meshes(const Options& options) {
+/// \return how many were written.
+std::uint64_t export_meshes(const Options& options) {
   const rosbag::Bag bag(options.bag);
   rosbag::View view(bag, rosbag::TopicQuery(options.topic));
   if (view.size() <= options.first) {
     throw InputError(fmt::format("it holds {} messages of topic {}, the first to export is {}", view.size(),
                                  options.topic, options.first));
   }
-  const MeshSequence sequence(options.out, options.format);
-  std::vector<TimedFile> written;
-  std::uint64_t count = 0;
+  MeshSequence sequence(options.out, options.format);
+  std::uint64_t count = 0, written = 0;
   for (const rosbag::MessageInstance& instance : view) {
     const std::uint64_t index = count++;
     if (index < options.first || index > options.last) continue;
     try {
       const TrackedMesh message = message_in(instance);
-      sequence.write(to_triangle_mesh(message), index);
-      const ros::Time& stamp = message.header.stamp;
-      written.push_back({fmt::format("{}.{:09}", stamp.sec, stamp.nsec),
-                         std::filesystem::path(sequence.path(index)).filename().string()});
+      sequence.write(to_triangle_mesh(message), index, to_nanoseconds(message.header.stamp));
+      ++written;
     } catch (const OutputError&) {
       throw;
     } catch (const Error& error) {
@@ -74,14 +69,6 @@ std::vector<TimedFile> write_meshes(const Options& options) {
     }
   }
   return written;
-}
-
-void export_meshes(const Options& options) {
-  const std::vector<TimedFile> written = write_meshes(options);
-  if (options.format == MeshFormat::kVtp) {
-    write_pvd((std::filesystem::path(options.out) / "frames.pvd").string(), written);
-  }
-  std::cout << fmt::format("{}: {} meshes\n", options.out, written.size());
 }
 
 ExitCode fail(ExitCode code, const std::string& text) {
@@ -116,7 +103,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? kOk : kUsage;
   }
   try {
-    export_meshes(options);
+    std::cout << fmt::format("{}: {} meshes\n", options.out, export_meshes(options));
   } catch (const OutputError& error) {
     return fail(kOutput, error.what());
   } catch (const std::exception& error) {

@@ -95,7 +95,7 @@ class OfflineRun {
         throw ParameterError(
             fmt::format("--last {}: the run has got beyond it and goes on with frame {}", last_, next_));
       }
-      outputs_.emplace(options_, &progress.outputs);
+      outputs_.emplace(options_, &progress);
     } catch (const ParameterError& error) {
       throw ParameterError(fmt::format("--resume {}: {}", options_.resume, error.what()));
     } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/ros/time_conversion.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -17,13 +18,22 @@ namespace {
 
 }  // namespace
 
-RunOutputs::RunOutputs(const OfflineOptions& options, const OutputProgress* from) : cell_frames_(options.debug_cells) {
-  if (options.format) meshes_.emplace(options.out, *options.format);
+RunOutputs::RunOutputs(const OfflineOptions& options, const RunProgress* from) : cell_frames_(options.debug_cells) {
+  const OutputProgress* progress = from == nullptr ? nullptr : &from->outputs;
+  if (options.format) open_meshes(options, from);
   if (!options.surface.empty()) surfaces_.emplace(options.surface, MeshFormat::kPly);
   if (!options.vdb.empty()) fields_.emplace(options.vdb);
   if (!cell_frames_.empty()) cells_.emplace(options.out);
-  if (!options.report.empty()) open_report(options, from);
-  if (!options.out_bag.empty()) open_bag(options, from);
+  if (!options.report.empty()) open_report(options, progress);
+  if (!options.out_bag.empty()) open_bag(options, progress);
+}
+
+void RunOutputs::open_meshes(const OfflineOptions& options, const RunProgress* from) {
+  if (from == nullptr) {
+    meshes_.emplace(options.out, *options.format);
+  } else {
+    meshes_.emplace(options.out, *options.format, from->next);
+  }
 }
 
 void RunOutputs::open_report(const OfflineOptions& options, const OutputProgress* from) {
@@ -58,10 +68,11 @@ bool RunOutputs::wants_cells(std::uint64_t frame) const {
 
 void RunOutputs::write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
                        const FrameReport& report) {
-  if (meshes_) meshes_->write(handler.tracker().mesh(), frame);
+  const std::int64_t stamp = to_nanoseconds(cloud->header.stamp);
+  if (meshes_) meshes_->write(handler.tracker().mesh(), frame, stamp);
   if (surfaces_) {
     const SurfaceTriangulation& surface = handler.tracker().implicit_surface()->triangulation;
-    surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame);
+    surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame, stamp);
   }
   if (fields_) fields_->write(*handler.tracker().implicit_surface(), frame);
   if (wants_cells(frame)) cells_->write(*handler.tracker().topology_cells(), frame);

@@ -26,7 +26,7 @@ class RunOutputs {
   /// \param from where the files of an interrupted run go on; null: they begin.
   /// \throw ParameterError if the options do not fit each other, or that run.
   /// \throw InputError, OutputError as MeshSequence, ReportWriter, TrackingBagWriter and BagParts.
-  RunOutputs(const OfflineOptions& options, const OutputProgress* from);
+  RunOutputs(const OfflineOptions& options, const RunProgress* from);
 
   /// Whether the cells of a frame are to be recorded for write().
   bool wants_cells(std::uint64_t frame) const;
@@ -48,6 +48,7 @@ class RunOutputs {
   void clean_up();
 
  private:
+  void open_meshes(const OfflineOptions& options, const RunProgress* from);
   void open_report(const OfflineOptions& options, const OutputProgress* from);
   void open_bag(const OfflineOptions& options, const OutputProgress* from);
 

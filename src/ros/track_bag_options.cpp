@@ -29,8 +29,11 @@ struct RawOptions {
   std::optional<std::uint64_t> checkpoint_every;
 };
 
-const std::map<std::string, std::optional<MeshFormat>> formats = {
-    {"ply", MeshFormat::kPly}, {"obj", MeshFormat::kObj}, {"none", std::nullopt}};
+const std::map<std::string, std::optional<MeshFormat>> formats = {{"ply", MeshFormat::kPly},
+                                                                  {"obj", MeshFormat::kObj},
+                                                                  {"vtp", MeshFormat::kVtp},
+                                                                  {"glb", MeshFormat::kGlb},
+                                                                  {"none", std::nullopt}};
 
 void add_inputs(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
   app.add_option("--bag", options.bag, "Bag with the particles: sensor_msgs/PointCloud2 with x y z [m] and id")
@@ -88,8 +91,8 @@ void add_outputs(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
   app.add_option("--out", options.out, "Folder of the tracked meshes, frame_000000.ply and so on; made if missing")
       ->required()
       ->type_name("DIR");
-  app.add_option("--format", raw.format, "Format of the meshes")
-      ->type_name("ply|obj|none")
+  app.add_option("--format", raw.format, "Format of the meshes; with vtp also their time series, frames.pvd")
+      ->type_name("ply|obj|vtp|glb|none")
       ->capture_default_str()
       ->check(CLI::IsMember(formats).description(""));
   app.add_option("--surface", options.surface, "Folder for the implicit surface of every frame, as PLY")

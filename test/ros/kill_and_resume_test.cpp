@@ -37,6 +37,10 @@ void expect_whole(const std::map<std::string, std::string>& left, const std::map
   for (const auto& [name, bytes] : left) {
     if (name == "report.jsonl") {
       EXPECT_EQ(wanted.at(name).rfind(bytes, 0), 0u) << bytes;
+    } else if (name == "out/frames.pvd") {
+      const std::string listed = bytes.substr(0, bytes.rfind("</Collection>"));
+      EXPECT_EQ(wanted.at(name).rfind(listed, 0), 0u) << bytes;
+      EXPECT_EQ(bytes.substr(listed.size()), "</Collection>\n</VTKFile>\n");
     } else if (name.find(".parts/") != std::string::npos) {
       rosbag::Bag bag(folder + "/" + name);
       EXPECT_GT(rosbag::View(bag).size(), 0u) << name;
@@ -130,6 +134,27 @@ TEST_F(Resume, AFinishedRunCanBeExtended) {
   ASSERT_EQ(runs_.run("a", {"--resume", "@/c"}), 0) << "with nothing left to do: " << runs_.output("a");
   ASSERT_EQ(runs_.run("b", {}), 0);
   EXPECT_EQ(differences(runs_.files("a"), runs_.files("b")), "");
+}
+
+TEST_F(Resume, ATimeSeriesGoesOnBehindAKill) {
+  ASSERT_EQ(runs_.run("b", {"--format", "vtp"}), 0);
+  const auto wanted = runs_.files("b");
+  ASSERT_EQ(wanted.count("out/frames.pvd"), 1u);
+  // Killed behind a checkpoint: the series has frames that come once more. A busy machine may kill too late.
+  const std::string later = runs_.path("c") + "/out/frame_000008.vtp";
+  const std::vector<std::string> arguments = {"--format", "vtp", "--checkpoint", "@/c", "--checkpoint-every", "7"};
+  int code = 0;
+  for (int n = 0; n < 10 && code == 0; ++n) {
+    fs::remove_all(runs_.path("c"));
+    code = runs_.run("c", arguments, [&] { return fs::exists(later); });
+  }
+  ASSERT_EQ(code, -1) << "the bag is too small for this test";
+  expect_whole(runs_.files("c"), wanted, runs_.path("c"));
+  ASSERT_EQ(runs_.run("c", {"--format", "vtp", "--resume", "@/c"}), 0) << runs_.output("c");
+  EXPECT_NE(runs_.output("c").find("going on with frame"), std::string::npos) << runs_.output("c");
+  EXPECT_EQ(differences(runs_.files("c"), wanted), "");
+  // A run that began without one would lack the frames before.
+  expect_refusal(2, {"--format", "vtp"}, "frames.pvd");
 }
 
 TEST_F(Resume, TheSpacingOfARunThatEstimatedItIsThatOfTheCheckpoint) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -102,12 +103,13 @@ std::string KilledRun::output(const std::string& name) const {
 }
 
 std::map<std::string, std::string> KilledRun::files(const std::string& name) const {
+  static const std::set<std::string> kinds = {".ply", ".vtp", ".pvd", ".bag", ".jsonl"};
   std::map<std::string, std::string> found;
   const std::filesystem::path root = folder_ / name;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::string file = entry.path().lexically_relative(root).string();
     const std::string extension = entry.path().extension().string();
-    if (!entry.is_regular_file() || (extension != ".ply" && extension != ".bag" && extension != ".jsonl")) continue;
+    if (!entry.is_regular_file() || kinds.count(extension) == 0) continue;
     const std::string bytes = read_file(entry.path().string());
     found[file] = extension == ".jsonl" ? without_times(bytes) : bytes;
   }

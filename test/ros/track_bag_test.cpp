@@ -88,6 +88,20 @@ TEST_F(TrackBag, RangeOfFramesKeepsTheirNumbers) {
   EXPECT_EQ(report().front()["frame"], 2);
 }
 
+TEST_F(TrackBag, FormatsForOtherProgramsHaveTheNamesOfTheFrames) {
+  write_bag(4);
+  ASSERT_EQ(run_standard("--first 1 --last 2 --format vtp").code, 0);
+  EXPECT_EQ(files_in("out"), (std::vector<std::string>{"frame_000001.vtp", "frame_000002.vtp", "frames.pvd"}));
+  const std::string series = read_file(folder_ / "out/frames.pvd");
+  EXPECT_NE(series.find("timestep=\"1000.010000000\" part=\"0\" file=\"frame_000001.vtp\""), std::string::npos)
+      << series;
+  EXPECT_NE(series.find("timestep=\"1000.020000000\" part=\"0\" file=\"frame_000002.vtp\""), std::string::npos)
+      << series;
+  ASSERT_EQ(run("--bag @/in.bag --mesh @/ball.ply --spacing 0.2 --out @/glb --format glb --last 1").code, 0);
+  EXPECT_EQ(files_in("glb"), (std::vector<std::string>{"frame_000000.glb", "frame_000001.glb"}));
+  EXPECT_EQ(read_file(folder_ / "glb/frame_000001.glb").substr(0, 4), "glTF");
+}
+
 TEST_F(TrackBag, ImplicitMeshAndEstimatedSpacing) {
   write_bag(3);
   const Outcome outcome = run("--bag @/in.bag --mesh implicit --spacing auto --out @/out --format none");

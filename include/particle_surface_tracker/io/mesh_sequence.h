@@ -1,30 +1,34 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "particle_surface_tracker/core/triangle_mesh.h"
+#include "particle_surface_tracker/io/time_series.h"
 
 namespace particle_surface_tracker {
 
 enum class MeshFormat { kPly, kObj, kVtp, kGlb };
 
-/// Writes the meshes of a sequence into one folder, one file per frame: `frame_000042.ply`.
+/// Writes the meshes of a sequence into one folder, one file per frame: `frame_000042.ply`; beside those of VTK also
+/// their TimeSeries.
 class MeshSequence {
  public:
   /// Makes the folder, and its parents, where they are missing, and tries whether files can be written there.
+  /// \param next the first frame to be written, if the sequence of an earlier run goes on; none: it begins.
   /// \throw OutputError if that fails.
-  MeshSequence(std::string folder, MeshFormat format);
+  /// \throw InputError as TimeSeries, if it goes on.
+  MeshSequence(std::string folder, MeshFormat format, std::optional<std::uint64_t> next = std::nullopt);
 
-  /// Path of the file of a frame.
-  std::string path(std::uint64_t frame) const;
-
+  /// \param stamp_ns of the frame, not negative.
   /// \throw OutputError as write_ply(), write_obj(), write_vtp() and write_glb().
-  void write(const TriangleMesh& mesh, std::uint64_t frame) const;
+  void write(const TriangleMesh& mesh, std::uint64_t frame, std::int64_t stamp_ns);
 
  private:
   std::string folder_;
   MeshFormat format_;
+  std::optional<TimeSeries> series_;
 };
 
 }  // namespace particle_surface_tracker
