@@ -103,6 +103,28 @@ class ExportMeshes(ScriptTest):
             np.testing.assert_array_equal(vtk_to_numpy(data.GetPoints().GetData()), CORNERS + 2)
             self.assertEqual(data.GetNumberOfPolys(), 4)
 
+    def test_vdb_is_gamma_on_the_lattice_of_the_spacing(self):
+        self.export("--format", "vdb", "--spacing", "0.2", "--first", "1", "--last", "2")
+        self.assertEqual({path.name for path in self.out.iterdir()}, {"gamma_000001.vdb", "gamma_000002.vdb"})
+        fine = (self.out / "gamma_000001.vdb").stat().st_size
+        self.export("--format", "vdb", "--spacing", "0.2", "--dx-gamma", "1", "--first", "1", "--last", "1")
+        self.assertLess((self.out / "gamma_000001.vdb").stat().st_size, fine)
+        _, errors = self.export("--format", "vdb", exit_code=1)
+        self.assertIn("--spacing", errors)
+
+    def test_a_mesh_file_is_frame_0(self):
+        self.export("--last", "0")
+        mesh, other = self.out / "frame_000000.ply", self.folder / "other"
+        self.run_program(PROGRAM, "--mesh", mesh, "--out", other, "--format", "vdb", "--spacing", "0.2")
+        self.export("--last", "0", "--format", "vdb", "--spacing", "0.2")
+        self.assertEqual((other / "gamma_000000.vdb").read_bytes(), (self.out / "gamma_000000.vdb").read_bytes())
+        self.run_program(PROGRAM, "--mesh", mesh, "--out", other, "--format", "obj")
+        self.assertTrue((other / "frame_000000.obj").exists())
+        _, errors = self.run_program(PROGRAM, "--mesh", self.bag, "--out", other, exit_code=2)
+        self.assert_one_line(errors, str(self.bag))
+        self.run_program(PROGRAM, "--mesh", mesh, "--bag", self.bag, "--out", other, exit_code=1)
+        self.run_program(PROGRAM, "--out", other, exit_code=1)
+
     def test_bad_input(self):
         _, errors = self.export("--first", "4", exit_code=2)
         self.assert_one_line(errors, str(self.bag), "4 messages", "the first to export is 4")
