@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
 #include <ctime>
-#include <mutex>
 #include <vector>
 
 #include <nodelet/loader.h>
@@ -17,6 +15,7 @@
 #include <visualization_msgs/Marker.h>
 #include <boost/make_shared.hpp>
 
+#include "arrivals.h"
 #include "particle_surface_tracker/io/mesh_writer.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
 #include "particle_surface_tracker/ros/particle_point.h"
@@ -50,42 +49,6 @@ double median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-// The moments at which a message of a topic arrives.
-template <typename Message>
-class Arrivals {
- public:
-  explicit Arrivals(const std::string& topic) {
-    subscriber_ =
-        ros::NodeHandle().subscribe<Message>(topic, 100, [this](const boost::shared_ptr<const Message>& message) {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          last_ = message;
-          time_ = Clock::now();
-          ++count_;
-          arrived_.notify_all();
-        });
-    while (subscriber_.getNumPublishers() == 0) ros::WallDuration(0.01).sleep();
-  }
-
-  Clock::time_point wait_for(int count) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    arrived_.wait(lock, [&] { return count_ >= count; });
-    return time_;
-  }
-
-  boost::shared_ptr<const Message> last() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return last_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable arrived_;
-  boost::shared_ptr<const Message> last_;
-  Clock::time_point time_;
-  int count_ = 0;
-  ros::Subscriber subscriber_;
-};
 
 void measure_transport(const ParticleFrame& particles) {
   const std::string mesh = "/tmp/particle_surface_tracker_live_benchmark.ply";
