@@ -5,6 +5,21 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
+# What `./dev sanitize` turns on, for all that is compiled here. Without null and vptr: AddressSanitizer sees what goes
+# through a null pointer, and types of libraries that keep their type information to themselves would be reported.
+set(PST_SANITIZE "" CACHE STRING "address (with undefined behaviour) or thread: build for a sanitizer of the compiler")
+if(PST_SANITIZE STREQUAL "address")
+  set(_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=null,vptr -fno-sanitize-recover=all)
+elseif(PST_SANITIZE STREQUAL "thread")
+  set(_sanitizers -fsanitize=thread)
+elseif(PST_SANITIZE)
+  message(FATAL_ERROR "PST_SANITIZE is '${PST_SANITIZE}'; there are: address, thread")
+endif()
+if(PST_SANITIZE)
+  add_compile_options(${_sanitizers} -fno-omit-frame-pointer)
+  add_link_options(${_sanitizers})
+endif()
+
 # -ffp-contract=off: multiplications and additions are fused where the kernels say so, and nowhere else, so that every
 # processor gives the same bytes.
 function(pst_compile_settings target)
