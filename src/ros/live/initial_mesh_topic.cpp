@@ -28,7 +28,7 @@ TriangleMesh read(const topic_tools::ShapeShifter& message) {
 }
 
 TriangleMesh read_any(const topic_tools::ShapeShifter& message) {
-  const std::string type = message.getDataType();
+  const std::string& type = message.getDataType();
   if (type == type_of<TrackedMesh>()) return read<TrackedMesh>(message);
   if (type == type_of<shape_msgs::Mesh>()) return read<shape_msgs::Mesh>(message);
   throw InputError(

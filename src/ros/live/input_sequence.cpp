@@ -78,7 +78,9 @@ std::uint64_t InputSequence::count_missing(const std_msgs::Header& header, std::
       missing = minus(static_cast<std::uint64_t>(std::llround(frames)), expected);
     }
   }
-  intervals_.push_back(interval / static_cast<std::int64_t>(expected + missing));
+  // passed_over_ never comes near the largest number, which alone would make this 0.
+  const auto frames = std::max<std::int64_t>(static_cast<std::int64_t>(expected + missing), 1);
+  intervals_.push_back(interval / frames);
   if (intervals_.size() > kIntervals) intervals_.pop_front();
   return missing;
 }

@@ -22,7 +22,7 @@ TriangleMesh mesh_to_write(const TrackedMesh& message) {
 }  // namespace
 
 std::string save_mesh(const std::string& folder, const std::string& name, const TrackedMesh& mesh) {
-  const std::string path = path_below(folder, name, {".ply", ".obj"});
+  std::string path = path_below(folder, name, {".ply", ".obj"});
   make_folders_of(path);
   const TriangleMesh triangles = mesh_to_write(mesh);
   path.compare(path.size() - 4, 4, ".ply") == 0 ? write_ply(path, triangles) : write_obj(path, triangles);

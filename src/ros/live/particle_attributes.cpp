@@ -1,6 +1,7 @@
 #include "ros/live/particle_attributes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -67,7 +68,7 @@ using Points = std::vector<const std::uint8_t*>;
 
 std::optional<Attribute> read_velocity(const PointCloud2& cloud, const Points& points) {
   Attribute attribute{"velocity", 3, {}};
-  const PointField* axes[3];
+  std::array<const PointField*, 3> axes{};
   int axis = 0;
   for (const char* name : {"vx", "vy", "vz"}) {
     axes[axis] = find_field(cloud, name, {PointField::FLOAT32});
@@ -124,7 +125,7 @@ ParticleAttributes read_particle_attributes(const PointCloud2& cloud, const std:
     }
   }
   if (particles.attributes.empty()) return particles;
-  const PointField* axes[3];
+  std::array<const PointField*, 3> axes{};
   int axis = 0;
   for (const char* name : {"x", "y", "z"}) axes[axis++] = find_field(cloud, name, {PointField::FLOAT32});
   for (const std::uint8_t* point : points) {

@@ -12,7 +12,7 @@ namespace particle_surface_tracker {
 /// Reads private parameters whatever type a launch file gave them, and remembers which were asked for.
 class PrivateParameters {
  public:
-  explicit PrivateParameters(ros::NodeHandle handle) : handle_(std::move(handle)) {}
+  explicit PrivateParameters(const ros::NodeHandle& handle) : handle_(handle) {}
 
   /// The value as text, of a number, flag or string; nothing if it is not set, or an empty string.
   /// \throw ParameterError if it is a list or a map.

@@ -21,7 +21,7 @@ fs::path real_folder(const std::string& folder) {
     throw ParameterError(fmt::format("~save_folder is '{}'; it must be an absolute path", folder));
   }
   std::error_code error;
-  const fs::path real = fs::canonical(folder, error);
+  fs::path real = fs::canonical(folder, error);
   if (error || !fs::is_directory(real, error)) {
     throw ParameterError(fmt::format("~save_folder is '{}', which is no folder", folder));
   }
@@ -38,7 +38,7 @@ fs::path real_path(const fs::path& folder, const std::string& name) {
   if (name.find('\0') != std::string::npos) throw ParameterError("the path holds a zero byte");
   const fs::path wanted(name);
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(folder / wanted, error);
+  fs::path real = fs::weakly_canonical(folder / wanted, error);
   if (error) throw ParameterError(fmt::format("the path '{}' cannot be resolved: {}", name, error.message()));
   if (wanted.is_absolute() || !is_below(real, folder) || real == folder) {
     throw ParameterError(

@@ -25,8 +25,8 @@ std::string frame_of(const Checkpoint& checkpoint) {
 
 }  // namespace
 
-TrackerNode::TrackerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
-    : TrackerNode(std::move(handle), private_handle, read_node_options(private_handle)) {}
+TrackerNode::TrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : TrackerNode(handle, private_handle, read_node_options(private_handle)) {}
 
 TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, const NodeOptions& options)
     : name_(private_handle.getNamespace()),

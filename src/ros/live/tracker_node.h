@@ -25,7 +25,7 @@ namespace particle_surface_tracker {
 class TrackerNode {
  public:
   /// \throw ParameterError, InputError, MeshError as read_node_options().
-  TrackerNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle);
+  TrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
   ~TrackerNode();
 
  private:
