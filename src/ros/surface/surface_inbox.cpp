@@ -56,7 +56,7 @@ ParticleSurfaceConstPtr SurfaceInbox::take(std::int64_t stamp_ns, bool is_expect
   }
   last_asked_ = stamp_ns;
   const auto found = waiting_.find(stamp_ns);
-  const ParticleSurfaceConstPtr surface = found != waiting_.end() ? found->second : nullptr;
+  ParticleSurfaceConstPtr surface = found != waiting_.end() ? found->second : nullptr;
   if (surface == nullptr) note_in_vain(stamp_ns, asked);
   forget_until(stamp_ns + 1);
   return surface;

@@ -49,7 +49,7 @@ SurfaceNodeOptions read_surface_node_options(const ros::NodeHandle& private_hand
   return options;
 }
 
-SurfaceNode::SurfaceNode(ros::NodeHandle handle, ros::NodeHandle private_handle)
+SurfaceNode::SurfaceNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle)
     : name_(private_handle.getNamespace()), options_(read_surface_node_options(private_handle)) {
   surfaces_ = handle.advertise<ParticleSurface>("surfaces", options_.queue_size);
   particles_ = handle.subscribe<sensor_msgs::PointCloud2>(

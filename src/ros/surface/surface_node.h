@@ -27,7 +27,7 @@ SurfaceNodeOptions read_surface_node_options(const ros::NodeHandle& private_hand
 class SurfaceNode {
  public:
   /// \throw ParameterError, InputError as read_surface_node_options().
-  SurfaceNode(ros::NodeHandle handle, ros::NodeHandle private_handle);
+  SurfaceNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle);
   ~SurfaceNode();
 
  private:
