@@ -21,7 +21,7 @@ double dot(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
 void ViscositySolver::drag(const Surroundings& surroundings, float strength, const std::vector<Vec3f>& velocities) {
   const auto of_walls = static_cast<float>(wall_friction_);
   for_each_particle(surroundings.size(), [&](std::size_t i) {
-    const Vec3f own = velocities[i];
+    const Vec3f& own = velocities[i];
     Vec3f sum = of_walls * (surroundings.wall_drag[i] * own);
     for (const Neighbor& neighbor : surroundings.neighborhoods.of(i)) {
       sum += neighbor.drag * neighbor.offset.dot(own - velocities[neighbor.index]) * neighbor.offset;

@@ -47,7 +47,7 @@ Simulation::Simulation(const SimulationSettings& settings)
 
 sensor_msgs::PointCloud2Ptr Simulation::cloud() const {
   const ParticleFrame& particles = simulator_.frame();
-  const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(to_point_cloud(particles, frame_id_));
+  auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(to_point_cloud(particles, frame_id_));
   cloud->header.stamp = to_ros_time(particles.stamp_ns);
   cloud->header.seq = static_cast<std::uint32_t>(frame_);
   return cloud;
