@@ -8,6 +8,7 @@
 #include "particle_surface_tracker/stages/component_disagreement.h"
 #include "particle_surface_tracker/stages/detail_conflict.h"
 #include "particle_surface_tracker/stages/disagreement.h"
+#include "particle_surface_tracker/stages/empty_components.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 #include "particle_surface_tracker/stages/remeshing.h"
 #include "particle_surface_tracker/stages/topology_matching.h"
@@ -108,12 +109,12 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     report.topology.conflicting_nodes += at_conflicts.size();
     ++report.topology.passes;
     RemeshingRequest request;
-    request.flagged_cells = flagged;
     TopologyCells cells;
     TopologyCells* const to_record = record != nullptr ? &cells : nullptr;
     MatchedVoxelization matched = match_topology(before, isosurface, flagged, parameters, at_conflicts, to_record);
     describe(matched, report.topology);
     report.flagged_cells += flagged.size();
+    request.flagged_cells = united(flagged, find_hidden_films(lattice, at_conflicts, matched));
     request.nodes = matched.nodes;
     request.gamma = matched.gamma;
     request.is_liquid = [&](const openvdb::Coord& node) {
@@ -134,6 +135,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     }
     if (pieces.none() && uncovered.empty()) break;
   }
+  report.topology.removed_components += remove_empty_components(mesh, original_vertices, particles, r);
   timer.begin("untangling");
   const std::uint32_t first_upkeep_id = mesh.next_id();
   std::vector<std::uint32_t> remeshed;

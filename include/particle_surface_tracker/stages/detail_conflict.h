@@ -36,4 +36,14 @@ std::vector<openvdb::Coord> find_conflicting_nodes(const MeshQuery& mesh_query, 
                                                    const std::vector<Vec3f>& uncovered,
                                                    const IsosurfaceQuery& isosurface, const Parameters& parameters);
 
+/// Cells with films of air in them that Γ cannot see: around lattice edges that the mesh crosses, but between whose
+/// ends, both of them nodes that have the side of φ, there is to be liquid. A piece that is joined along them stays
+/// apart unless they are made anew.
+/// \param at_conflicts the nodes that have the side of φ, sorted.
+/// \param matched Γ there.
+/// \return sorted, unique.
+std::vector<openvdb::Coord> find_hidden_films(const MeshLattice& lattice,
+                                              const std::vector<openvdb::Coord>& at_conflicts,
+                                              const MatchedVoxelization& matched);
+
 }  // namespace particle_surface_tracker

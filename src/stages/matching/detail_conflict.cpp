@@ -8,6 +8,7 @@
 #include "line_signs.h"
 #include "matching_region.h"
 #include "node_numbers.h"
+#include "stages/remeshing/lattice_parts.h"
 #include "uncovered_particles.h"
 
 namespace particle_surface_tracker {
@@ -22,6 +23,9 @@ constexpr double kAroundParticle = 1.25;
 
 /// A neck of liquid between two bodies is hardly longer [r].
 constexpr double kLongestWay = 5.0;
+
+/// A way along lattice edges is longer than a straight one by at most this.
+const double kDetour = std::sqrt(3.0);
 
 void settle(Nodes& nodes) {
   std::sort(nodes.begin(), nodes.end());
@@ -85,48 +89,69 @@ std::vector<Nodes> connected_sets(const Nodes& cells) {
   return sets;
 }
 
+/// Calls visit(neighbor, edge) for the six nodes that a lattice edge joins to a node.
+template <typename Visit>
+void for_each_edge_at(const Coord& node, Visit&& visit) {
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    const Coord below = remeshing::moved(node, axis, -1);
+    visit(below, LatticeEdge{below, axis});
+    visit(remeshing::moved(node, axis, 1), LatticeEdge{node, axis});
+  }
+}
+
+/// Adds the nodes that a lattice edge joins to one of a set.
+void dilate_along_edges(NodeMasks& set) {
+  const NodeNumbers before(set);
+  for (const Coord& node : before.nodes()) {
+    for_each_edge_at(node, [&](const Coord& neighbor, const LatticeEdge&) { set.insert(neighbor); });
+  }
+}
+
+/// The nodes of a piece of mesh.
+struct PieceNodes {
+  Nodes all;    ///< At its surface, and those that it encloses; sorted.
+  Nodes start;  ///< Of these: not inside another part of the mesh. From here a way leads to the rest of it.
+};
+
 /// Finds the ways from liquid that the mesh does not hold to liquid that it does.
 class Ways {
  public:
-  Ways(const LineSigns& mesh, const FieldAtNodes& field) : mesh_(mesh), field_(field) {}
+  Ways(const MeshQuery& mesh, const FieldAtNodes& field)
+      : lattice_(mesh.lattice()), mesh_(mesh.signs()), field_(field) {}
 
-  /// The nodes at a surface, and those that it encloses.
-  /// \return sorted.
-  Nodes filled(const NodeMasks& at_surface) const {
-    Nodes all = NodeNumbers(at_surface).nodes();
+  PieceNodes nodes_of(const Nodes& cells) const {
+    PieceNodes piece{NodeNumbers(nodes_at_cells(cells)).nodes(), {}};
     openvdb::CoordBBox box;
-    for (const Coord& node : all) box.expand(node);
-    NodeMasks seen = at_surface;
-    for (std::size_t next = 0; next < all.size(); ++next) {
-      if (!is_inside(all[next])) continue;
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const int step : {-1, 1}) {
-          Coord neighbor = all[next];
-          neighbor[axis] += step;
-          if (!box.isInside(neighbor) || seen.contains(neighbor) || !is_inside(neighbor)) continue;
-          seen.insert(neighbor);
-          all.push_back(neighbor);
-        }
+    for (const Coord& node : piece.all) box.expand(node);
+    NodeMasks seen, of_others;
+    const std::size_t at_surface = piece.all.size();
+    for (std::size_t n = 0; n < at_surface; ++n) {
+      const Coord first = piece.all[n];
+      if (seen.contains(first) || !is_inside(first)) continue;
+      const Body body = body_at(first, box, seen);
+      if (body.goes_on) {
+        for (const Coord& node : body.nodes) of_others.insert(node);
+      } else {
+        piece.all.insert(piece.all.end(), body.nodes.begin(), body.nodes.end());
       }
     }
-    settle(all);
-    return all;
+    settle(piece.all);
+    std::copy_if(piece.all.begin(), piece.all.end(), std::back_inserter(piece.start),
+                 [&](const Coord& node) { return !of_others.contains(node); });
+    return piece;
   }
 
   /// Nodes of φ < 0 on the shortest ways from some nodes to the inside of the mesh, both ends included; none where it
-  /// is not near.
+  /// is not near. A way goes along lattice edges: the triangulation keeps nodes apart that only share a face or a cell.
   /// \param first sorted.
   Nodes from(const Nodes& first, int longest) const {
     NodeMasks seen = masks_of(first);
     std::vector<Nodes> layers = {NodeNumbers(field_.liquid(seen)).nodes()};
     Nodes goal;
     while (goal.empty() && static_cast<int>(layers.size()) <= longest && !layers.back().empty()) {
-      NodeMasks next;
-      for (const Coord& node : layers.back()) {
-        for_each_neighbor(node, [&](const Coord& neighbor) {
-          if (!seen.contains(neighbor)) next.insert(neighbor);
-        });
-      }
+      NodeMasks next = masks_of(layers.back());
+      dilate_along_edges(next);
+      remove_nodes(next, seen);
       unite(seen, next);
       layers.push_back(NodeNumbers(field_.liquid(next)).nodes());
       for (const Coord& node : layers.back()) {
@@ -136,7 +161,7 @@ class Ways {
     Nodes way = goal;
     for (std::size_t layer = layers.size() - 1; layer > 0 && !goal.empty(); --layer) {
       NodeMasks ends = masks_of(goal);
-      ends.dilate(1, 1);
+      dilate_along_edges(ends);
       goal.clear();
       std::copy_if(layers[layer - 1].begin(), layers[layer - 1].end(), std::back_inserter(goal),
                    [&](const Coord& node) { return ends.contains(node); });
@@ -146,11 +171,36 @@ class Ways {
   }
 
  private:
+  /// Nodes that one part of the mesh encloses.
+  struct Body {
+    Nodes nodes;           ///< In a box.
+    bool goes_on = false;  ///< Whether there are more beyond it.
+  };
+
+  /// \param seen receives the nodes.
+  Body body_at(const Coord& first, const openvdb::CoordBBox& box, NodeMasks& seen) const {
+    Body body{{first}};
+    seen.insert(first);
+    for (std::size_t next = 0; next < body.nodes.size(); ++next) {
+      for_each_edge_at(Coord(body.nodes[next]), [&](const Coord& neighbor, const LatticeEdge& edge) {
+        if (seen.contains(neighbor) || !is_inside(neighbor) || !lattice_.crossings_on(edge).empty()) return;
+        if (box.isInside(neighbor)) {
+          seen.insert(neighbor);
+          body.nodes.push_back(neighbor);
+        } else {
+          body.goes_on = true;
+        }
+      });
+    }
+    return body;
+  }
+
   bool is_inside(const Coord& node) const {
     const LeafWords words = mesh_.leaf(node & ~7).inside;
     return (words[node.x() & 7] >> (8 * (node.y() & 7) + (node.z() & 7)) & 1) != 0;
   }
 
+  const MeshLattice& lattice_;
   const LineSigns& mesh_;
   const FieldAtNodes& field_;
 };
@@ -180,8 +230,8 @@ std::vector<Coord> find_conflicting_nodes(const MeshQuery& mesh_query, const Com
   if (pieces.scrap_cells.empty() && pieces.stray_cells.empty() && uncovered.empty()) return {};
   const double r = parameters.particle_spacing;
   const double h = mesh_query.lattice().h();
-  const int longest = static_cast<int>(std::ceil(kLongestWay * r / h));
-  const Ways ways(mesh_query.signs(), isosurface.field());
+  const int longest = static_cast<int>(std::ceil(kDetour * kLongestWay * r / h));
+  const Ways ways(mesh_query, isosurface.field());
   Nodes found;
   const auto append = [&](const Nodes& nodes) { found.insert(found.end(), nodes.begin(), nodes.end()); };
   for (const Vec3f& particle : uncovered) {
@@ -190,16 +240,36 @@ std::vector<Coord> find_conflicting_nodes(const MeshQuery& mesh_query, const Com
     append(ways.from(around, longest));
   }
   for (const Nodes& scrap : connected_sets(pieces.scrap_cells)) {
-    const Nodes all = ways.filled(nodes_at_cells(scrap));
-    append(all);
-    append(ways.from(all, longest));
+    const PieceNodes nodes = ways.nodes_of(scrap);
+    append(nodes.all);
+    append(ways.from(nodes.start, longest));
   }
   for (const Nodes& piece : connected_sets(pieces.stray_cells)) {
-    append(ways.from(ways.filled(nodes_at_cells(piece)), longest));
+    append(ways.from(ways.nodes_of(piece).start, longest));
   }
   NodeMasks nodes = masks_of(found);
   nodes.dilate(1, 1);
   return NodeNumbers(nodes).nodes();
+}
+
+std::vector<Coord> find_hidden_films(const MeshLattice& lattice, const std::vector<Coord>& at_conflicts,
+                                     const MatchedVoxelization& matched) {
+  NodeMasks liquid;
+  for (std::size_t n = 0; n < matched.nodes.size(); ++n) {
+    if (matched.gamma[n] < 0.0F && std::binary_search(at_conflicts.begin(), at_conflicts.end(), matched.nodes[n]))
+      liquid.insert(matched.nodes[n]);
+  }
+  Nodes cells;
+  const NodeNumbers numbers(liquid);
+  for (const Coord& node : numbers.nodes()) {
+    for (std::uint8_t axis = 0; axis < 3; ++axis) {
+      const LatticeEdge edge{node, axis};
+      if (!liquid.contains(remeshing::moved(node, axis, 1)) || lattice.crossings_on(edge).empty()) continue;
+      for (const Coord& cell : remeshing::cells_around(edge)) cells.push_back(cell);
+    }
+  }
+  settle(cells);
+  return cells;
 }
 
 }  // namespace particle_surface_tracker

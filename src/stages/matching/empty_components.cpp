@@ -1,0 +1,83 @@
+#include "particle_surface_tracker/stages/empty_components.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <Eigen/Geometry>
+
+#include "particle_surface_tracker/core/mesh_measures.h"
+#include "stages/nodes/lattice_cell.h"
+#include "stages/nodes/node_masks.h"
+
+namespace particle_surface_tracker {
+
+namespace {
+
+/// A component with more triangles is no crumb.
+constexpr std::size_t kLargestCrumb = 500;
+
+struct Component {
+  std::size_t triangles = 0;
+  bool is_new = true;
+  double six_volumes = 0.0;
+  Vec3d origin = Vec3d::Zero();  ///< Of the volumes.
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Component> describe_components(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component_of,
+                                           std::size_t count, std::uint32_t first_new_id) {
+  std::vector<Component> components(count);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.ids()[v] < first_new_id) components[component_of[v]].is_new = false;
+  }
+  for (const Triangle& t : mesh.triangles()) ++components[component_of[t[0]]].triangles;
+  for (const Triangle& t : mesh.triangles()) {
+    Component& component = components[component_of[t[0]]];
+    if (!component.is_new || component.triangles > kLargestCrumb) continue;
+    const Vec3d a = mesh.positions()[t[0]].cast<double>();
+    const Vec3d b = mesh.positions()[t[1]].cast<double>();
+    const Vec3d c = mesh.positions()[t[2]].cast<double>();
+    if (component.box.isEmpty()) component.origin = a;
+    component.box.extend(a).extend(b).extend(c);
+    component.six_volumes += (a - component.origin).dot((b - component.origin).cross(c - component.origin));
+  }
+  return components;
+}
+
+}  // namespace
+
+std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_id, const std::vector<Vec3f>& particles,
+                                    double r) {
+  std::size_t count = 0;
+  const std::vector<std::uint32_t> component_of = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
+  if (count <= 1) return 0;
+  const std::vector<Component> components = describe_components(mesh, component_of, count, first_new_id);
+  std::vector<std::uint32_t> crumbs;
+  NodeMasks near;  // cells of r that are near crumbs
+  for (std::uint32_t c = 0; c < count; ++c) {
+    const Component& component = components[c];
+    if (!component.is_new || component.triangles > kLargestCrumb || component.six_volumes <= 0.0) continue;
+    crumbs.push_back(c);
+    openvdb::CoordBBox cells(cell_of(component.box.min() / r), cell_of(component.box.max() / r));
+    cells.expand(1);
+    for (auto cell = cells.begin(); cell; ++cell) near.insert(*cell);
+  }
+  for (const Vec3f& particle : particles) {
+    const Vec3d place = particle.cast<double>();
+    if (!has_cell(place / r) || !near.contains(cell_of(place / r))) continue;
+    crumbs.erase(
+        std::remove_if(crumbs.begin(), crumbs.end(),
+                       [&](std::uint32_t c) { return components[c].box.squaredExteriorDistance(place) <= r * r; }),
+        crumbs.end());
+  }
+  if (crumbs.empty()) return 0;
+  std::vector<Triangle> kept;
+  std::copy_if(mesh.triangles().begin(), mesh.triangles().end(), std::back_inserter(kept), [&](const Triangle& t) {
+    return !std::binary_search(crumbs.begin(), crumbs.end(), component_of[t[0]]);
+  });
+  mesh.set_triangles(std::move(kept));
+  mesh.remove_unused_vertices();
+  return crumbs.size();
+}
+
+}  // namespace particle_surface_tracker
