@@ -23,10 +23,10 @@ std::string differences(const std::map<std::string, std::string>& a, const std::
   std::string names;
   for (const auto& [name, bytes] : a) {
     const auto other = b.find(name);
-    if (other == b.end() || other->second != bytes) names += name + " ";
+    if (other == b.end() || other->second != bytes) names.append(name).append(" ");
   }
   for (const auto& [name, bytes] : b) {
-    if (a.count(name) == 0) names += name + " ";
+    if (a.count(name) == 0) names.append(name).append(" ");
   }
   return names;
 }

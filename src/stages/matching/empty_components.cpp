@@ -33,7 +33,6 @@ std::vector<Component> describe_components(const TriangleMesh& mesh, const std::
   for (const Triangle& t : mesh.triangles()) ++components[component_of[t[0]]].triangles;
   for (const Triangle& t : mesh.triangles()) {
     Component& component = components[component_of[t[0]]];
-    if (!component.is_new || component.triangles > kLargestCrumb) continue;
     const Vec3d a = mesh.positions()[t[0]].cast<double>();
     const Vec3d b = mesh.positions()[t[1]].cast<double>();
     const Vec3d c = mesh.positions()[t[2]].cast<double>();
@@ -42,6 +41,15 @@ std::vector<Component> describe_components(const TriangleMesh& mesh, const std::
     component.six_volumes += (a - component.origin).dot((b - component.origin).cross(c - component.origin));
   }
   return components;
+}
+
+/// Whether another component may be inside one: without it, a cavity would be a cavity of nothing.
+bool may_enclose(const std::vector<Component>& components, std::uint32_t number) {
+  const Eigen::AlignedBox3d& box = components[number].box;
+  for (std::uint32_t c = 0; c < components.size(); ++c) {
+    if (c != number && components[c].triangles > 0 && box.contains(components[c].box)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -57,6 +65,7 @@ std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_
   for (std::uint32_t c = 0; c < count; ++c) {
     const Component& component = components[c];
     if (!component.is_new || component.triangles > kLargestCrumb || component.six_volumes <= 0.0) continue;
+    if (may_enclose(components, c)) continue;
     crumbs.push_back(c);
     openvdb::CoordBBox cells(cell_of(component.box.min() / r), cell_of(component.box.max() / r));
     cells.expand(1);

@@ -40,6 +40,13 @@ TEST(EmptyComponents, CavitiesStay) {
   EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0.45F, 0, 0)}, kSpacing), 0U);
 }
 
+TEST(EmptyComponents, WhatHoldsACavityStays) {
+  const TriangleMesh shell = test::make_sphere(Vec3d(0.8, 0, 0), 0.03, 1);
+  const TriangleMesh cavity = test::turned(test::make_sphere(Vec3d(0.8, 0, 0), 0.01, 1));
+  TriangleMesh mesh = test::joined({kBody, shell, cavity});
+  EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0, 0, 0)}, kSpacing), 0U);
+}
+
 TEST(EmptyComponents, LargeOnesStay) {
   TriangleMesh mesh = test::joined({kBody, test::make_sphere(Vec3d(0.8, 0, 0), 0.1, 4)});
   EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0, 0, 0)}, kSpacing), 0U);
