@@ -113,7 +113,7 @@ void expect_same_as_offline(const Scene& scene, const std::string& rate) {
 
 // A bag of the ball and its mesh.
 Scene ball_scene(const TemporaryFolder& folder, int frames) {
-  const Scene scene{folder / "ball.bag", folder / "ball.ply", "0.2"};
+  Scene scene{folder / "ball.bag", folder / "ball.ply", "0.2"};
   write_ply(scene.mesh, ball_mesh());
   rosbag::Bag bag(scene.bag, rosbag::bagmode::Write);
   for (int n = 0; n < frames; ++n) bag.write("/particles", ball_cloud(n)->header.stamp, ball_cloud(n));
