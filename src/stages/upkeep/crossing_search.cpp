@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -75,10 +76,17 @@ class Neighborhood {
     const Vec3f &a = mesh_.positions[t[0]], &b = mesh_.positions[t[1]], &c = mesh_.positions[t[2]];
     box_ = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     found_.clear();
+    ring_.clear();
     for (std::uint32_t k = 0; k < 3; ++k) {
       mesh_.for_each_around(3 * triangle + k, [&](std::uint32_t h) {
-        mesh_.for_each_around(next_half_edge(h), [&](std::uint32_t beyond) { add(beyond / 3); });
+        ring_.emplace_back(end_of(mesh_.triangles, h), next_half_edge(h));
       });
+    }
+    // Most vertices of the ring are met several times.
+    std::sort(ring_.begin(), ring_.end());
+    for (std::size_t n = 0; n < ring_.size(); ++n) {
+      if (n > 0 && ring_[n].first == ring_[n - 1].first) continue;
+      mesh_.for_each_around(ring_[n].second, [&](std::uint32_t beyond) { add(beyond / 3); });
     }
     std::sort(found_.begin(), found_.end());
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
@@ -93,6 +101,7 @@ class Neighborhood {
 
   const ConnectedTriangles& mesh_;
   Box box_{};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ring_;  // a vertex, a half-edge from it
   std::vector<std::uint32_t> found_;
 };
 

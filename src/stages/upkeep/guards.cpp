@@ -1,6 +1,7 @@
 #include "guards.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -38,17 +39,47 @@ double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch&
   return largest;
 }
 
-/// The normal beyond edge k of a triangle of the patch: of another triangle of the patch, or of one around it.
-Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle,
-                    std::size_t k) {
-  const std::uint32_t from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3];
-  for (const PatchTriangle& other : patch.triangles) {
-    for (std::size_t m = 0; m < 3; ++m) {
-      if (other.vertices[m] == to && other.vertices[(m + 1) % 3] == from) return area_normal(other.corners);
+/// The normals beyond the edges of a patch's triangles: of other triangles of the patch, or of those around it.
+class NormalsBeyond {
+ public:
+  NormalsBeyond(const EditableSurface& surface, const PlannedPatch& patch) : surface_(surface), patch_(patch) {
+    if (patch.triangles.size() <= kFewTriangles) return;
+    for (std::uint32_t n = 0; n < patch.triangles.size(); ++n) {
+      const Triangle& t = patch.triangles[n].vertices;
+      for (std::size_t k = 0; k < 3; ++k) edges_.push_back({t[k], t[(k + 1) % 3], n});
     }
+    std::sort(edges_.begin(), edges_.end());
   }
-  return area_normal(surface.corners(triangle.beyond[k] / 3));
-}
+
+  /// Beyond edge k of a triangle of the patch.
+  Vec3d at(const PatchTriangle& triangle, std::size_t k) const {
+    const PatchTriangle* const other = find(triangle.vertices[(k + 1) % 3], triangle.vertices[k]);
+    return area_normal(other != nullptr ? other->corners : surface_.corners(triangle.beyond[k] / 3));
+  }
+
+ private:
+  /// Of more triangles the edges are sorted: a fan that fills a large cell can have thousands.
+  static constexpr std::size_t kFewTriangles = 24;
+
+  /// The first triangle with an edge from one vertex to another; null if there is none.
+  const PatchTriangle* find(std::uint32_t from, std::uint32_t to) const {
+    if (edges_.empty()) {
+      for (const PatchTriangle& triangle : patch_.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (triangle.vertices[k] == from && triangle.vertices[(k + 1) % 3] == to) return &triangle;
+        }
+      }
+      return nullptr;
+    }
+    const auto found = std::lower_bound(edges_.begin(), edges_.end(), std::array<std::uint32_t, 3>{from, to, 0});
+    if (found == edges_.end() || (*found)[0] != from || (*found)[1] != to) return nullptr;
+    return &patch_.triangles[(*found)[2]];
+  }
+
+  const EditableSurface& surface_;
+  const PlannedPatch& patch_;
+  std::vector<std::array<std::uint32_t, 3>> edges_;  // from, to, triangle of the patch
+};
 
 }  // namespace
 
@@ -123,10 +154,11 @@ bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, con
 
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold) {
   double largest = 0.0;
+  const NormalsBeyond normals(surface, patch);
   for (const PatchTriangle& triangle : patch.triangles) {
     const Vec3d normal = area_normal(triangle.corners);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d beyond = normal_beyond(surface, patch, triangle, k);
+      const Vec3d beyond = normals.at(triangle, k);
       if (normal.dot(beyond) < 0.0) largest = std::max(largest, fold_between(normal, beyond));
     }
   }
@@ -171,40 +203,39 @@ Eigen::AlignedBox3f box_of(const Corners& corners) {
   return box;
 }
 
-bool crosses_others(const EditableSurface& surface, const std::vector<PatchTriangle>& triangles,
-                    const std::vector<std::uint32_t>& others) {
+bool crosses_others(const std::vector<PatchTriangle>& triangles, const std::vector<NearTriangle>& others) {
   return std::any_of(triangles.begin(), triangles.end(), [&](const PatchTriangle& triangle) {
     const Eigen::AlignedBox3f box = box_of(triangle.corners);
-    return std::any_of(others.begin(), others.end(), [&](std::uint32_t t) {
-      const Corners corners = surface.corners(t);
-      return box.intersects(box_of(corners)) &&
-             cross(triangle.vertices, triangle.corners, surface.triangle(t), corners);
+    return std::any_of(others.begin(), others.end(), [&](const NearTriangle& other) {
+      return box.intersects(other.box) && cross(triangle.vertices, triangle.corners, other.vertices, other.corners);
     });
   });
 }
 
 /// The triangles whose box meets that of the patch or of what it replaces; without the latter.
 void find_others(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
-                 std::vector<std::uint32_t>& others) {
+                 std::vector<NearTriangle>& others) {
   Eigen::AlignedBox3f box;
   for (const PatchTriangle& triangle : patch.triangles) box.extend(box_of(triangle.corners));
   for (const std::uint32_t t : patch.replaced) box.extend(box_of(surface.corners(t)));
   others.clear();
   surroundings.for_each_near(box, [&](std::uint32_t t) {
-    if (std::find(patch.replaced.begin(), patch.replaced.end(), t) == patch.replaced.end()) others.push_back(t);
+    if (std::find(patch.replaced.begin(), patch.replaced.end(), t) != patch.replaced.end()) return;
+    const Corners corners = surface.corners(t);
+    others.push_back({surface.triangle(t), corners, box_of(corners)});
   });
 }
 
 }  // namespace
 
 bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
-                 std::vector<std::uint32_t>& others) {
+                 std::vector<NearTriangle>& others) {
   find_others(surface, patch, surroundings, others);
-  if (!crosses_itself(patch.triangles) && !crosses_others(surface, patch.triangles, others)) return true;
+  if (!crosses_itself(patch.triangles) && !crosses_others(patch.triangles, others)) return true;
   std::vector<PatchTriangle> before;
   for (const std::uint32_t t : patch.replaced)
     before.push_back({surface.triangle(t), surface.corners(t), Vec3d::Zero(), {}});
-  return crosses_itself(before) || crosses_others(surface, before, others);
+  return crosses_itself(before) || crosses_others(before, others);
 }
 
 }  // namespace particle_surface_tracker

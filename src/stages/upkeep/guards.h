@@ -41,9 +41,16 @@ bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, con
 /// No edge in or around the patch becomes folded, or none worse than the worst one before.
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold);
 
+/// A triangle near a patch.
+struct NearTriangle {
+  Triangle vertices;
+  Corners corners;
+  Eigen::AlignedBox3f box;
+};
+
 /// The patch does not cross itself or the triangles around it, unless what it replaces did so already.
 /// \param others memory for the search.
 bool stays_clear(const EditableSurface& surface, const PlannedPatch& patch, const Surroundings& surroundings,
-                 std::vector<std::uint32_t>& others);
+                 std::vector<NearTriangle>& others);
 
 }  // namespace particle_surface_tracker

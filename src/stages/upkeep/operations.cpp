@@ -132,7 +132,7 @@ bool Operations::may_flip(std::uint32_t half_edge) {
 
 bool Operations::is_clear() {
   if (!surroundings_) surroundings_.emplace(surface_, size_);
-  if (stays_clear(surface_, patch_, *surroundings_, indices_)) return true;
+  if (stays_clear(surface_, patch_, *surroundings_, near_)) return true;
   ++crossings_;
   return false;
 }

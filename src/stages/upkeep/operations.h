@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "editable_surface.h"
+#include "guards.h"
 #include "patch.h"
 #include "surroundings.h"
 #include "tolerances.h"
@@ -54,6 +55,7 @@ class Operations {
   PlannedPatch patch_;
   std::size_t crossings_ = 0;
   std::vector<std::uint32_t> indices_;  // memory for searches
+  std::vector<NearTriangle> near_;      // the same
 };
 
 }  // namespace particle_surface_tracker

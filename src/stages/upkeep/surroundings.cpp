@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 namespace particle_surface_tracker {
 
 Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell) : surface_(surface) {
@@ -13,27 +16,54 @@ Surroundings::Surroundings(const EditableSurface& surface, double smallest_cell)
   std::size_t slots = 1024;
   while (slots < surface.triangle_slots()) slots *= 2;
   heads_.assign(slots, kEnd);
-  entries_.reserve(surface.triangle_slots() + surface.triangle_slots() / 8);
-  for (std::uint32_t t = 0; t < surface.triangle_slots(); ++t) enter(t);
+  enter_first();
+}
+
+void Surroundings::enter_first() {
+  std::vector<Placed> all(surface_.triangle_slots());
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, surface_.triangle_slots(), 4096), [&](const auto& range) {
+    for (std::uint32_t t = range.begin(); t != range.end(); ++t) {
+      if (surface_.is_alive(t)) all[t] = placed(t);
+    }
+  });
+  begins_.assign(heads_.size() + 2, 0);
+  for (std::uint32_t t = 0; t < all.size(); ++t) {
+    if (!surface_.is_alive(t)) continue;
+    level_in_use_[all[t].level] = true;
+    ++begins_[all[t].slot + 2];
+  }
+  for (std::size_t slot = 2; slot < begins_.size(); ++slot) begins_[slot] += begins_[slot - 1];
+  first_entries_.resize(begins_.back());
+  for (std::uint32_t t = 0; t < all.size(); ++t) {
+    if (surface_.is_alive(t)) first_entries_[begins_[all[t].slot + 1]++] = all[t].entry;
+  }
+  begins_.pop_back();
+}
+
+Surroundings::Placed Surroundings::placed(std::uint32_t triangle) const {
+  Placed result{};
+  Eigen::AlignedBox3f& box = result.entry.box;
+  box.setEmpty();
+  for (const std::uint32_t vertex : surface_.triangle(triangle)) box.extend(surface_.stored_position(vertex));
+  result.entry.triangle = triangle;
+  const double extent = box.sizes().maxCoeff();
+  while (result.level + 1 < kLevels && extent * inverse_cell_size_[result.level] > 1.0) ++result.level;
+  const Cell cell = cell_of(box.min(), result.level);
+  result.slot = slot_of(row_of(cell[1], cell[2], result.level), cell[0]);
+  return result;
 }
 
 void Surroundings::enter(std::uint32_t triangle) {
-  Eigen::AlignedBox3f box;
-  for (const std::uint32_t vertex : surface_.triangle(triangle)) box.extend(surface_.stored_position(vertex));
-  const double extent = box.sizes().maxCoeff();
-  std::size_t level = 0;
-  while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
-  level_in_use_[level] = true;
-  const Cell cell = cell_of(box.min(), level);
-  const std::size_t slot = slot_of(row_of(cell[1], cell[2], level), cell[0]);
-  entries_.push_back({box, triangle, heads_[slot]});
-  heads_[slot] = static_cast<std::uint32_t>(entries_.size() - 1);
+  const Placed entered = placed(triangle);
+  level_in_use_[entered.level] = true;
+  later_entries_.push_back({entered.entry, heads_[entered.slot]});
+  heads_[entered.slot] = static_cast<std::uint32_t>(later_entries_.size() - 1);
 }
 
 bool Surroundings::has_more_cells_than_entries(const Cell& first, const Cell& last) const {
   double cells = 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis) cells *= static_cast<double>(last[axis] - first[axis]) + 2.0;
-  return cells > static_cast<double>(entries_.size());
+  return cells > static_cast<double>(first_entries_.size() + later_entries_.size());
 }
 
 Surroundings::Cell Surroundings::cell_of(const Vec3f& position, std::size_t level) const {
