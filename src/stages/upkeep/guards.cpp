@@ -1,6 +1,7 @@
 #include "guards.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -36,17 +37,47 @@ double largest_replaced_fold(const EditableSurface& surface, const PlannedPatch&
   return largest;
 }
 
-/// The normal beyond edge k of a triangle of the patch: of another triangle of the patch, or of one around it.
-Vec3d normal_beyond(const EditableSurface& surface, const PlannedPatch& patch, const PatchTriangle& triangle,
-                    std::size_t k) {
-  const std::uint32_t from = triangle.vertices[k], to = triangle.vertices[(k + 1) % 3];
-  for (const PatchTriangle& other : patch.triangles) {
-    for (std::size_t m = 0; m < 3; ++m) {
-      if (other.vertices[m] == to && other.vertices[(m + 1) % 3] == from) return area_normal(other.corners);
+/// The normals beyond the edges of a patch's triangles: of other triangles of the patch, or of those around it.
+class NormalsBeyond {
+ public:
+  NormalsBeyond(const EditableSurface& surface, const PlannedPatch& patch) : surface_(surface), patch_(patch) {
+    if (patch.triangles.size() <= kFewTriangles) return;
+    for (std::uint32_t n = 0; n < patch.triangles.size(); ++n) {
+      const Triangle& t = patch.triangles[n].vertices;
+      for (std::size_t k = 0; k < 3; ++k) edges_.push_back({t[k], t[(k + 1) % 3], n});
     }
+    std::sort(edges_.begin(), edges_.end());
   }
-  return area_normal(surface.corners(triangle.beyond[k] / 3));
-}
+
+  /// Beyond edge k of a triangle of the patch.
+  Vec3d at(const PatchTriangle& triangle, std::size_t k) const {
+    const PatchTriangle* const other = find(triangle.vertices[(k + 1) % 3], triangle.vertices[k]);
+    return area_normal(other != nullptr ? other->corners : surface_.corners(triangle.beyond[k] / 3));
+  }
+
+ private:
+  /// Of more triangles the edges are sorted: a fan that fills a large cell can have thousands.
+  static constexpr std::size_t kFewTriangles = 24;
+
+  /// The first triangle with an edge from one vertex to another; null if there is none.
+  const PatchTriangle* find(std::uint32_t from, std::uint32_t to) const {
+    if (edges_.empty()) {
+      for (const PatchTriangle& triangle : patch_.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (triangle.vertices[k] == from && triangle.vertices[(k + 1) % 3] == to) return &triangle;
+        }
+      }
+      return nullptr;
+    }
+    const auto found = std::lower_bound(edges_.begin(), edges_.end(), std::array<std::uint32_t, 3>{from, to, 0});
+    if (found == edges_.end() || (*found)[0] != from || (*found)[1] != to) return nullptr;
+    return &patch_.triangles[(*found)[2]];
+  }
+
+  const EditableSurface& surface_;
+  const PlannedPatch& patch_;
+  std::vector<std::array<std::uint32_t, 3>> edges_;  // from, to, triangle of the patch
+};
 
 }  // namespace
 
@@ -121,10 +152,11 @@ bool keeps_angles(const EditableSurface& surface, const PlannedPatch& patch, con
 
 bool keeps_folds(const EditableSurface& surface, const PlannedPatch& patch, double largest_fold) {
   double largest = 0.0;
+  const NormalsBeyond normals(surface, patch);
   for (const PatchTriangle& triangle : patch.triangles) {
     const Vec3d normal = area_normal(triangle.corners);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d beyond = normal_beyond(surface, patch, triangle, k);
+      const Vec3d beyond = normals.at(triangle, k);
       if (normal.dot(beyond) < 0.0) largest = std::max(largest, fold_between(normal, beyond));
     }
   }
