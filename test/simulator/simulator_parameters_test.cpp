@@ -45,7 +45,8 @@ TEST(SimulatorParameters, TableHasEveryNumberOnce) {
     EXPECT_FALSE(info.name.empty());
     EXPECT_FALSE(info.text.empty()) << info.name;
   }
-  EXPECT_EQ(simulator_parameter_table().size() * sizeof(double) + sizeof(parameters.obstacles), sizeof(parameters));
+  EXPECT_EQ(simulator_parameter_table().size() * sizeof(double) + sizeof(decltype(parameters.obstacles)),
+            sizeof(parameters));
 }
 
 TEST(SimulatorParameters, DefaultsAreInTheirRanges) {
