@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 
 class NodeSettingsTest : public testing::Test {
  protected:
-  ~NodeSettingsTest() override { ros::param::del("~"); }
+  void TearDown() override { ros::param::del("~"); }
 
   std::string error() const {
     try {
