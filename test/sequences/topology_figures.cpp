@@ -101,8 +101,8 @@ SequenceLimits limits_for(const std::string& name) {
     limits.original_vertices = 0.49;
   }
   if (name == "falling_objects") {
-    limits.equal_topology = 0.94;
-    limits.covered_frames = 0.88;
+    limits.equal_topology = 0.98;
+    limits.covered_frames = 0.90;
   }
   return limits;
 }
