@@ -11,6 +11,8 @@ namespace {
 std::size_t allocations = 0;
 }  // namespace
 
+// What everything else is allocated with has nothing but malloc() below it.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc)
 // Not inlined: the compiler would take one without the other for a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
@@ -25,6 +27,7 @@ std::size_t allocations = 0;
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
+// NOLINTEND(cppcoreguidelines-no-malloc)
 
 namespace particle_surface_tracker {
 namespace {
