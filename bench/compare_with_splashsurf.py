@@ -97,7 +97,7 @@ def measure(data, name, last, runs):
     splash, tracker = [], []
     for _ in range(runs):
         splash += splashsurf_seconds(frames, spacing)
-        tracker += tracker_seconds(data, name, spacing, last)
+        tracker += tracker_seconds(data, name, spacing, len(frames))
     return splash, tracker
 
 
