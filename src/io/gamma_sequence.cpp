@@ -43,7 +43,7 @@ std::vector<Coord> nodes_near(const MeshLattice& lattice) {
 openvdb::FloatGrid::Ptr gamma_of(const TriangleMesh& mesh, double h) {
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), h);
   const auto reach = static_cast<float>(kHalfWidth * h);
-  const auto grid = openvdb::FloatGrid::create(reach);
+  auto grid = openvdb::FloatGrid::create(reach);
   grid->setName("gamma");
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(h));
