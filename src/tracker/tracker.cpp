@@ -237,7 +237,7 @@ bool Tracker::started() const {
 
 TrackerState Tracker::state() const {
   require_started();
-  return {state_->parameters, *state_->tracked};
+  return {state_->parameters, static_cast<const TrackedFrame&>(*state_->tracked)};
 }
 
 void Tracker::require_started() const {

@@ -42,7 +42,7 @@ void expect_whole(const std::map<std::string, std::string>& left, const std::map
       EXPECT_EQ(wanted.at(name).rfind(listed, 0), 0u) << bytes;
       EXPECT_EQ(bytes.substr(listed.size()), "</Collection>\n</VTKFile>\n");
     } else if (name.find(".parts/") != std::string::npos) {
-      rosbag::Bag bag(folder + "/" + name);
+      rosbag::Bag bag(std::string(folder).append("/").append(name));
       EXPECT_GT(rosbag::View(bag).size(), 0u) << name;
     } else {
       EXPECT_EQ(bytes, wanted.at(name)) << name;

@@ -52,6 +52,8 @@ std::uint32_t Operations::collapse(std::uint32_t half_edge) {
 
   const Vec3f& older_position = surface_.stored_position(surface_.end(onto_older));
   const Vec3f& younger_position = surface_.stored_position(surface_.end(onto_younger));
+  // By value: a collapse may move what a reference would be to.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
   const auto collapse_to = [this](std::uint32_t onto, const Vec3f position) {
     if (!may_collapse_to(onto, position)) return false;
     const std::uint32_t kept = surface_.end(onto);

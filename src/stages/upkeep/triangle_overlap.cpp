@@ -25,7 +25,7 @@ Corners edges_of(const Corners& t) {
 
 bool triangles_touch(const Corners& first, const Corners& second) {
   // Near the origin the projections are rounded least.
-  const Corners a = {first[0] - first[0], first[1] - first[0], first[2] - first[0]};
+  const Corners a = {Vec3d::Zero(), first[1] - first[0], first[2] - first[0]};
   const Corners b = {second[0] - first[0], second[1] - first[0], second[2] - first[0]};
   const Corners edges_a = edges_of(a), edges_b = edges_of(b);
   const Vec3d normal_a = edges_a[0].cross(edges_a[1]), normal_b = edges_b[0].cross(edges_b[1]);

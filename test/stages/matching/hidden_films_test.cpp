@@ -40,7 +40,7 @@ struct Film {
     matched = match_topology(query, isosurface, {}, make_parameters(), at_conflicts);
   }
 
-  std::size_t components_with(const std::vector<openvdb::Coord>& flagged) {
+  std::size_t components_with(const std::vector<openvdb::Coord>& flagged) const {
     RemeshingRequest request;
     request.flagged_cells = flagged;
     request.nodes = matched.nodes;
