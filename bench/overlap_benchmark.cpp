@@ -2,11 +2,10 @@
 // in one manager against TrackerNodelet alone, with the particles of a bag as fast as they are tracked. Needs a master:
 // bench/overlap.
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <limits>
 #include <string>
 #include <thread>
@@ -55,13 +54,9 @@ Clouds read_clouds(const Options& options) {
   return clouds;
 }
 
+/// Of all threads.
 double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 void load(nodelet::Loader& manager, const std::string& name, const std::string& type) {

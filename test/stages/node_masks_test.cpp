@@ -58,6 +58,27 @@ TEST(NodeMasks, DilatedByEveryWidthHoldTheBoxesAroundTheNodes) {
   }
 }
 
+TEST(NodeMasks, NodesBesideAreThoseAtTheEndsOfLatticeEdges) {
+  constexpr unsigned seed = 13;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> coordinate(-9, 9);
+  NodeMasks masks;
+  std::set<Coord> beside;
+  for (int n = 0; n < 200; ++n) {
+    const Coord node(coordinate(random), coordinate(random), coordinate(random));
+    masks.insert(node);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int step : {-1, 1}) {
+        Coord neighbor = node;
+        neighbor[axis] += step;
+        beside.insert(neighbor);
+      }
+    }
+  }
+  EXPECT_EQ(to_set(nodes_beside(masks)), beside);
+}
+
 TEST(MovedWords, SplitAMaskBetweenTheLeafAndTheNextOne) {
   constexpr unsigned seed = 11;
   SCOPED_TRACE(seed);

@@ -28,7 +28,7 @@ struct NodeList {
 struct LeafTargets {
   static constexpr int size = 3 * 3 * 3;
   static constexpr std::int32_t unwanted = -1;  ///< Where no node of a leaf is wanted.
-  alignas(64) std::int32_t begin[32];
+  alignas(64) std::int32_t begin[32];           ///< `size` of them; whole registers are read.
   float* squared;
 };
 

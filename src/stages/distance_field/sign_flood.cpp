@@ -42,8 +42,7 @@ LeafWords arrivals(const std::vector<SignLeaf>& leaves, const SignLeaf& leaf, Le
   for (int side = 0; side < 6; ++side) {
     const std::uint32_t neighbor = leaf.neighbors[side];
     if (neighbor == LeafIndex::none) continue;
-    const MovedWords moved = move_words(leaves[neighbor].*mask, side >> 1, side & 1 ? -1 : 1);
-    for (int x = 0; x < 8; ++x) arrived[x] |= moved.outside[x];
+    add_words(move_words(leaves[neighbor].*mask, side >> 1, side & 1 ? -1 : 1).outside, arrived);
   }
   return arrived;
 }

@@ -26,10 +26,6 @@ constexpr std::size_t kFewLeaves = 8;
 /// A component of eight particles has more triangles, where cells are half as large as r.
 constexpr std::size_t kLargestSpeck = 150;
 
-void add_words(const LeafWords& words, LeafWords& to) {
-  for (int x = 0; x < kWidth; ++x) to[x] |= words[x];
-}
-
 /// The components of φ = 0: 0 is the largest, the others count from 1 by their lowest vertex.
 struct NumberedComponents {
   std::vector<std::int32_t> of_triangle;
@@ -76,23 +72,6 @@ std::vector<NodeMasks> cells_near_gaps(const SurfaceTriangulation& surface, cons
   return cells;
 }
 
-/// The cells that share a face with one of some cells.
-NodeMasks cells_beside(const NodeMasks& cells) {
-  NodeMasks beside(cells.leaves().size());
-  for (const NodeMasks::Leaf& leaf : cells.leaves()) {
-    for (int side = 0; side < 6; ++side) {
-      const int direction = side % 2 == 0 ? -1 : 1;
-      const MovedWords moved = move_words(leaf.words, side / 2, direction);
-      add_words(moved.inside, beside.words_at(leaf.origin));
-      if (is_zero(moved.outside)) continue;
-      openvdb::Coord beyond = leaf.origin;
-      beyond[side / 2] += direction * kWidth;
-      add_words(moved.outside, beside.words_at(beyond));
-    }
-  }
-  return beside;
-}
-
 }  // namespace
 
 ComponentLabels::ComponentLabels(const ImplicitSurface& surface) : dx_(surface.dx) {
@@ -105,7 +84,7 @@ ComponentLabels::ComponentLabels(const ImplicitSurface& surface) : dx_(surface.d
   for (int step = 0; step <= kReach; ++step) {
     for (std::size_t number = 0; number < fronts.size(); ++number) {
       NodeMasks& front = fronts[number];
-      if (step > 0) front = cells_beside(front);
+      if (step > 0) front = nodes_beside(front);
       for (const NodeMasks::Leaf& leaf : front.leaves()) {
         LeafWords& taken_words = taken.words_at(leaf.origin);
         LeafWords& words = front.words_at(leaf.origin);

@@ -99,14 +99,6 @@ void for_each_edge_at(const Coord& node, Visit&& visit) {
   }
 }
 
-/// Adds the nodes that a lattice edge joins to one of a set.
-void dilate_along_edges(NodeMasks& set) {
-  const NodeNumbers before(set);
-  for (const Coord& node : before.nodes()) {
-    for_each_edge_at(node, [&](const Coord& neighbor, const LatticeEdge&) { set.insert(neighbor); });
-  }
-}
-
 /// The nodes of a piece of mesh.
 struct PieceNodes {
   Nodes all;    ///< At its surface, and those that it encloses; sorted.
@@ -149,8 +141,7 @@ class Ways {
     std::vector<Nodes> layers = {NodeNumbers(field_.liquid(seen)).nodes()};
     Nodes goal;
     while (goal.empty() && static_cast<int>(layers.size()) <= longest && !layers.back().empty()) {
-      NodeMasks next = masks_of(layers.back());
-      dilate_along_edges(next);
+      NodeMasks next = nodes_beside(masks_of(layers.back()));
       remove_nodes(next, seen);
       unite(seen, next);
       layers.push_back(NodeNumbers(field_.liquid(next)).nodes());
@@ -160,8 +151,7 @@ class Ways {
     }
     Nodes way = goal;
     for (std::size_t layer = layers.size() - 1; layer > 0 && !goal.empty(); --layer) {
-      NodeMasks ends = masks_of(goal);
-      dilate_along_edges(ends);
+      const NodeMasks ends = nodes_beside(masks_of(goal));
       goal.clear();
       std::copy_if(layers[layer - 1].begin(), layers[layer - 1].end(), std::back_inserter(goal),
                    [&](const Coord& node) { return ends.contains(node); });

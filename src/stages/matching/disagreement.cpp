@@ -34,8 +34,7 @@ NodeMasks misplaced_nodes(const NodesAtIsosurface& nodes, const LineSigns& mesh)
       LeafWords words = mesh.leaf(leaf.origin).inside;
       for (int x = 0; x < 8; ++x) words[x] = leaf.words[x] & (is_inside ? ~words[x] : words[x]);
       if (is_zero(words)) continue;
-      LeafWords& target = misplaced.words_at(leaf.origin);
-      for (int x = 0; x < 8; ++x) target[x] |= words[x];
+      add_words(words, misplaced.words_at(leaf.origin));
     }
   };
   add(nodes.inside, true);

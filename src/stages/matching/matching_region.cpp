@@ -25,10 +25,7 @@ NodeMasks nodes_at_cells(const std::vector<openvdb::Coord>& cells) {
 }
 
 void unite(NodeMasks& set, const NodeMasks& other) {
-  for (const NodeMasks::Leaf& leaf : other.leaves()) {
-    LeafWords& words = set.words_at(leaf.origin);
-    for (int x = 0; x < 8; ++x) words[x] |= leaf.words[x];
-  }
+  for (const NodeMasks::Leaf& leaf : other.leaves()) add_words(leaf.words, set.words_at(leaf.origin));
 }
 
 void remove_nodes(NodeMasks& set, const NodeMasks& removed) {

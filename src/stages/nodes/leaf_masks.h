@@ -8,6 +8,11 @@ namespace particle_surface_tracker {
 /// One bit per node of a leaf of 8³ nodes, laid out as OpenVDB's masks are: word x, bit 8y + z.
 using LeafWords = std::array<std::uint64_t, 8>;
 
+/// Adds the nodes of a mask to another.
+inline void add_words(const LeafWords& words, LeafWords& to) {
+  for (int x = 0; x < 8; ++x) to[x] |= words[x];
+}
+
 /// Masks of a leaf and of its seven neighbours towards larger coordinates; neighbour n is the next one along x, y, z
 /// where bits 0, 1, 2 of n are set. Those that are not there are zeros.
 using ForwardWords = std::array<const LeafWords*, 8>;

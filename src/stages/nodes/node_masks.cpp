@@ -72,13 +72,27 @@ void NodeMasks::add_moved(int axis, int direction, int distance) {
   for (std::size_t n = 0; n < count; ++n) {
     Leaf& leaf = leaves_[n];
     const MovedWords moved = move_words(leaf.words, axis, direction, distance);
-    for (int x = 0; x < kWidth; ++x) leaf.words[x] |= moved.inside[x];
+    add_words(moved.inside, leaf.words);
     if (!is_zero(moved.outside)) arrivals.emplace_back(leaf.origin + offset, moved.outside);
   }
-  for (const auto& [origin, words] : arrivals) {
-    LeafWords& target = words_at(origin);
-    for (int x = 0; x < kWidth; ++x) target[x] |= words[x];
+  for (const auto& [origin, words] : arrivals) add_words(words, words_at(origin));
+}
+
+NodeMasks nodes_beside(const NodeMasks& set) {
+  NodeMasks beside(set.leaves().size());
+  for (const NodeMasks::Leaf& leaf : set.leaves()) {
+    if (is_zero(leaf.words)) continue;
+    for (int side = 0; side < 6; ++side) {
+      const int direction = side % 2 == 0 ? -1 : 1;
+      const MovedWords moved = move_words(leaf.words, side / 2, direction);
+      add_words(moved.inside, beside.words_at(leaf.origin));
+      if (is_zero(moved.outside)) continue;
+      openvdb::Coord beyond = leaf.origin;
+      beyond[side / 2] += direction * kWidth;
+      add_words(moved.outside, beside.words_at(beyond));
+    }
   }
+  return beside;
 }
 
 }  // namespace particle_surface_tracker

@@ -69,4 +69,7 @@ MovedWords move_words(const LeafWords& words, int axis, int direction, int dista
 /// True if no bit is set.
 bool is_zero(const LeafWords& words);
 
+/// The nodes that a lattice edge joins to one of a set (the cells that share a face with one): some of the set too.
+NodeMasks nodes_beside(const NodeMasks& set);
+
 }  // namespace particle_surface_tracker
