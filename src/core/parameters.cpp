@@ -125,6 +125,8 @@ std::vector<Entry> make_entries() {
            "A shorter edge is collapsed, if it has also shrunk by collapse_shrinkage."),
       real(&P::collapse_shrinkage, "collapse_shrinkage", "", "", 0.0, 0.5, false,
            "An edge is collapsed only if it is shorter than this times the edges that its vertices had at birth."),
+      real(&P::remeshed_length, "remeshed_length", "", "dx_Gamma", 0.0, 0.75, false,
+           "Between vertices that re-meshing made, which carry no detail, every shorter edge is collapsed."),
       real(&P::fold_angle, "fold_angle", "", "deg", 90.0, 180.0, false,
            "An edge is collapsed if the normals of its triangles differ by more than this, and by 20 degrees more than "
            "at birth."),

@@ -16,10 +16,10 @@ struct Range {
 };
 
 /// δ of the vertices next to each of `vertices`.
-std::vector<Range> delta_around(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
+std::vector<Range> delta_around(const TriangleMesh& mesh, const std::vector<FreshVertex>& vertices) {
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> place(mesh.vertex_count(), none);
-  for (std::uint32_t n = 0; n < vertices.size(); ++n) place[vertices[n]] = n;
+  for (std::uint32_t n = 0; n < vertices.size(); ++n) place[vertices[n].index] = n;
   std::vector<Range> ranges(vertices.size());
   for (const Triangle& t : mesh.triangles()) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -36,13 +36,12 @@ std::vector<Range> delta_around(const TriangleMesh& mesh, const std::vector<std:
 
 }  // namespace
 
-double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, std::uint32_t first_new_id,
-                           std::uint32_t first_upkeep_id, NarrowBand& band, const Parameters& parameters,
-                           FrameReport& report) {
+double measure_fresh_delta(TriangleMesh& mesh, const std::vector<FreshVertex>& vertices, NarrowBand& band,
+                           const Parameters& parameters, FrameReport& report) {
   if (vertices.empty()) return 0.0;
   std::vector<Vec3f> positions;
   positions.reserve(vertices.size());
-  for (const std::uint32_t v : vertices) positions.push_back(mesh.positions()[v]);
+  for (const FreshVertex& vertex : vertices) positions.push_back(mesh.positions()[vertex.index]);
   const double r = parameters.particle_spacing;
   const Projection measured =
       band.project(positions, std::vector<float>(positions.size(), 0.0f), parameters.tau * r, parameters.max_reach * r);
@@ -51,15 +50,13 @@ double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>&
   std::vector<float> deltas(vertices.size());
   std::size_t lost = 0;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
-    const float blended = mesh.delta()[vertices[n]];
+    const float blended = mesh.delta()[vertices[n].index];
     deltas[n] = blended;
     if (measured.status[n] != ProjectionStatus::kFound) {
       ++lost;
       continue;
     }
-    const std::uint32_t id = mesh.ids()[vertices[n]];
-    const bool is_remeshed = id >= first_new_id && id < first_upkeep_id;
-    if (is_remeshed) {
+    if (vertices[n].is_remeshed) {
       if (std::abs(measured.distances[n] - blended) <= tolerance) deltas[n] = measured.distances[n];
     } else {
       deltas[n] = std::clamp(measured.distances[n], around[n].low, around[n].high);
@@ -67,7 +64,7 @@ double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>&
   }
   double largest = 0.0;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
-    mesh.delta()[vertices[n]] = deltas[n];
+    mesh.delta()[vertices[n].index] = deltas[n];
     largest = std::max(largest, std::abs(static_cast<double>(deltas[n])));
   }
   if (lost > 0) {

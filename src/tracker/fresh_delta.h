@@ -10,19 +10,22 @@
 
 namespace particle_surface_tracker {
 
+/// A vertex that is new or has moved.
+struct FreshVertex {
+  std::uint32_t index;
+  bool is_remeshed;  ///< Else upkeep has made or moved it.
+};
+
 /// Measures δ of vertices that are new or have moved, where they are now, by the search that projects (Sec. 5.2).
 ///
 /// What is measured must not make a place of the surface out of one that is only waiting to be put right: beside a
 /// vertex that was flagged and put back, a new one would otherwise take the whole gap for detail, and the gap would
 /// never be flagged again. So δ of a vertex that upkeep made stays within that of its neighbours, and δ of a re-meshed
 /// one within τ of what it was blended from; the next projection moves the vertex by the rest or flags it.
-/// \param vertices increasing indices, with a blended δ.
-/// \param first_upkeep_id ids from here on, and ids below `first_new_id`, are vertices that upkeep made or moved; ids
-/// between the two are re-meshed ones.
+/// \param vertices with a blended δ.
 /// \param band φ of the frame.
 /// \return the largest |δ| of those vertices [m].
-double measure_fresh_delta(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices, std::uint32_t first_new_id,
-                           std::uint32_t first_upkeep_id, NarrowBand& band, const Parameters& parameters,
-                           FrameReport& report);
+double measure_fresh_delta(TriangleMesh& mesh, const std::vector<FreshVertex>& vertices, NarrowBand& band,
+                           const Parameters& parameters, FrameReport& report);
 
 }  // namespace particle_surface_tracker

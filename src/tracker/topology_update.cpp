@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "fresh_delta.h"
@@ -10,6 +11,7 @@
 #include "particle_surface_tracker/stages/disagreement.h"
 #include "particle_surface_tracker/stages/empty_components.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
+#include "particle_surface_tracker/stages/particle_cover.h"
 #include "particle_surface_tracker/stages/remeshing.h"
 #include "particle_surface_tracker/stages/topology_matching.h"
 #include "particle_surface_tracker/stages/untangling.h"
@@ -56,25 +58,48 @@ void describe(const RemeshingReport& remeshed, FrameReport& report) {
   }
 }
 
-/// All vertices that are new or have moved.
-/// \param first_new_id new vertices have ids from here on.
-/// \param relaxed_ids ids of vertices that have moved, by position in the mesh; some may have gone. Ids increase with it.
-/// \param moved vertices that have moved or are new: increasing indices.
-std::vector<std::uint32_t> fresh_vertices(const TriangleMesh& mesh, std::uint32_t first_new_id,
-                                          const std::vector<std::uint32_t>& relaxed_ids,
-                                          const std::vector<std::uint32_t>& moved) {
-  std::vector<std::uint32_t> fresh;
-  auto next_id = relaxed_ids.begin();
-  auto next_moved = moved.begin();
+/// Ids of the vertices that were made or moved after matching.
+struct FreshIds {
+  std::uint32_t first_remeshed;         ///< New vertices have ids from here on.
+  std::uint32_t first_upkeep;           ///< From here on upkeep made them.
+  std::vector<std::uint32_t> relaxed;   ///< Increasing; some may have gone.
+  std::vector<std::uint32_t> kept_up;   ///< Increasing.
+  std::vector<std::uint32_t> remeshed;  ///< Increasing: those that were moved where re-meshing had made them.
+};
+
+std::vector<std::uint32_t> ids_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(vertices.size());
+  for (const std::uint32_t v : vertices) ids.push_back(mesh.ids()[v]);
+  return ids;
+}
+
+/// All vertices that are new or have moved, in order.
+std::vector<FreshVertex> fresh_vertices(const TriangleMesh& mesh, const FreshIds& ids) {
+  const auto is_in = [](const std::vector<std::uint32_t>& set, std::uint32_t id) {
+    return std::binary_search(set.begin(), set.end(), id);
+  };
+  std::vector<FreshVertex> fresh;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const std::uint32_t id = mesh.ids()[v];
-    while (next_id != relaxed_ids.end() && *next_id < id) ++next_id;
-    const bool was_relaxed = next_id != relaxed_ids.end() && *next_id == id;
-    const bool has_moved = next_moved != moved.end() && *next_moved == v;
-    if (has_moved) ++next_moved;
-    if (id >= first_new_id || was_relaxed || has_moved) fresh.push_back(v);
+    const bool is_remeshed = (id >= ids.first_remeshed && id < ids.first_upkeep) || is_in(ids.remeshed, id);
+    if (is_remeshed || id >= ids.first_upkeep || is_in(ids.relaxed, id) || is_in(ids.kept_up, id)) {
+      fresh.push_back({v, is_remeshed});
+    }
   }
   return fresh;
+}
+
+/// The particles that φ = 0 is within r of, by a wide measure: where the liquid is thin, the search that projects need
+/// not find the place that is closest.
+std::vector<Vec3f> near_isosurface(const std::vector<Vec3f>& particles, NarrowBand& band, double r) {
+  constexpr double kNear = 1.15;
+  const Projection found = band.project(particles, std::vector<float>(particles.size(), 0.0F), r, 2.0 * r);
+  std::vector<Vec3f> near;
+  for (std::size_t n = 0; n < particles.size(); ++n) {
+    if (found.status[n] == ProjectionStatus::kFound && found.distances[n] <= kNear * r) near.push_back(particles[n]);
+  }
+  return near;
 }
 
 }  // namespace
@@ -90,31 +115,35 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   timer.begin("topology_matching");
   ComponentDisagreement pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
   std::vector<Vec3f> uncovered;
+  std::optional<MeshLattice> lattice;
+  std::optional<MeshQuery> before;
+  MatchedVoxelization matched;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     timer.begin("voxelization");
-    const MeshLattice lattice(mesh.positions(), mesh.triangles(), h);
+    lattice.emplace(mesh.positions(), mesh.triangles(), h);
     timer.begin("topology_matching");
-    const MeshQuery before(lattice);
+    before.emplace(*lattice);
     Cells flagged = united(pieces.bridge_cells, pieces.scrap_cells);
     if (pass == 0) {
-      const Disagreement disagreement = find_disagreement(before, mesh.delta(), isosurface, parameters);
+      const Disagreement disagreement = find_disagreement(*before, mesh.delta(), isosurface, parameters);
       report.topology.disagreeing_nodes = disagreement.nodes.size();
       flagged = united(united(flagged, detection.flagged_cells), disagreement.flagged_cells);
-      uncovered = find_uncovered_particles(particles, before, {}, mesh, isosurface, kCover * r, parameters);
+      uncovered = find_uncovered_particles(particles, *before, {}, mesh, kCover * r, parameters);
+      uncovered = near_missing_liquid(uncovered, *before, {}, isosurface, parameters);
     }
     // Where matching alone has not helped, detail gives way.
     if (pass > 0) pieces.scrap_cells = flagged;
-    const Cells at_conflicts = find_conflicting_nodes(before, pieces, uncovered, isosurface, parameters);
+    const Cells at_conflicts = find_conflicting_nodes(*before, pieces, uncovered, isosurface, parameters);
     report.topology.uncovered_particles += uncovered.size();
     report.topology.conflicting_nodes += at_conflicts.size();
     ++report.topology.passes;
     RemeshingRequest request;
     TopologyCells cells;
     TopologyCells* const to_record = record != nullptr ? &cells : nullptr;
-    MatchedVoxelization matched = match_topology(before, isosurface, flagged, parameters, at_conflicts, to_record);
+    matched = match_topology(*before, isosurface, flagged, parameters, at_conflicts, to_record);
     describe(matched, report.topology);
     report.flagged_cells += flagged.size();
-    request.flagged_cells = united(flagged, find_hidden_films(lattice, at_conflicts, matched));
+    request.flagged_cells = united(flagged, find_hidden_films(*lattice, at_conflicts, matched));
     request.nodes = matched.nodes;
     request.gamma = matched.gamma;
     request.is_liquid = [&](const openvdb::Coord& node) {
@@ -122,7 +151,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     };
     request.remesh_crossings = pass == 0 && parameters.self_intersections == SelfIntersections::kRemesh;
     timer.begin("remeshing");
-    const RemeshingReport remeshed = remesh(mesh, lattice, request, to_record);
+    const RemeshingReport remeshed = remesh(mesh, *lattice, request, to_record);
     describe(remeshed, report);
     if (record != nullptr) record->add(cells);
     if (!remeshed.changed()) break;
@@ -131,22 +160,23 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
     uncovered.clear();
     if (pass == 0) {
-      uncovered = find_uncovered_particles(particles, before, matched, mesh, isosurface, r, parameters);
+      uncovered = find_uncovered_particles(particles, *before, matched, mesh, r, parameters);
+      uncovered = near_missing_liquid(uncovered, *before, matched, isosurface, parameters);
     }
     if (pieces.none() && uncovered.empty()) break;
   }
   report.topology.removed_components += remove_empty_components(mesh, original_vertices, particles, r);
   timer.begin("untangling");
-  const std::uint32_t first_upkeep_id = mesh.next_id();
+  FreshIds fresh;
+  fresh.first_remeshed = first_new_id;
+  fresh.first_upkeep = mesh.next_id();
   std::vector<std::uint32_t> remeshed;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.ids()[v] >= first_new_id) remeshed.push_back(v);
   }
-  forget_birth(mesh, remeshed);
+  mark_as_remeshed(mesh, remeshed);
   const UntanglingReport relaxed = untangle(mesh, memory);
-  std::vector<std::uint32_t> relaxed_ids;
-  relaxed_ids.reserve(relaxed.moved.size());
-  for (const std::uint32_t v : relaxed.moved) relaxed_ids.push_back(mesh.ids()[v]);
+  fresh.relaxed = ids_of(mesh, relaxed.moved);
   timer.begin("upkeep");
   const UpkeepReport kept = keep_up(mesh, parameters, memory);
   report.upkeep.splits = kept.splits;
@@ -155,9 +185,11 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   report.upkeep.tangles = relaxed.tangles;
   report.upkeep.untangled = relaxed.untangled;
   report.upkeep.refused = kept.refused;
+  fresh.kept_up = ids_of(mesh, kept.fresh);
+  const std::vector<Vec3f> missed = find_uncovered_particles(particles, *before, matched, mesh, r, parameters);
+  fresh.remeshed = ids_of(mesh, cover_particles(mesh, original_vertices, near_isosurface(missed, band, r), r));
 
-  return measure_fresh_delta(mesh, fresh_vertices(mesh, first_new_id, relaxed_ids, kept.fresh), first_new_id,
-                             first_upkeep_id, band, parameters, report);
+  return measure_fresh_delta(mesh, fresh_vertices(mesh, fresh), band, parameters, report);
 }
 
 }  // namespace particle_surface_tracker

@@ -102,7 +102,6 @@ SequenceLimits limits_for(const std::string& name) {
   }
   if (name == "falling_objects") {
     limits.equal_topology = 0.98;
-    limits.covered_frames = 0.90;
   }
   return limits;
 }

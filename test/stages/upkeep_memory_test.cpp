@@ -11,16 +11,16 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(Birth, IsNotedOnceAndCanBeForgotten) {
+TEST(Birth, IsNotedOnceAndAnewForWhatIsRemeshed) {
   TriangleMesh mesh = test::make_tetrahedron(1.0);
   note_birth(mesh);
   test::scale(mesh, Vec3d::Constant(2.125));
   note_birth(mesh);
-  TriangleMesh forgotten = mesh;
-  forget_birth(forgotten, {0, 1, 2, 3});
+  TriangleMesh remeshed = mesh;
+  mark_as_remeshed(remeshed, {0, 1, 2, 3});
   const Parameters parameters = test::parameters_for_cells_of(0.1);
   EXPECT_EQ(keep_up(mesh, parameters).splits, 6U);
-  EXPECT_FALSE(keep_up(forgotten, parameters).has_changes());
+  EXPECT_FALSE(keep_up(remeshed, parameters).has_changes());
 }
 
 TEST(Birth, OfANewVertexWithoutABlendIsWhenItIsFirstSeen) {
@@ -31,8 +31,8 @@ TEST(Birth, OfANewVertexWithoutABlendIsWhenItIsFirstSeen) {
   mesh.set_triangles({{0, 1, v}, {1, 2, v}, {2, 0, v}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
   const Parameters parameters = test::parameters_for_cells_of(0.01);
   EXPECT_FALSE(keep_up(mesh, parameters).has_changes());
-  const auto birth = mesh.attributes()[mesh.attributes().find("birth")].values;
-  EXPECT_FLOAT_EQ(birth[4 * v], (mesh.positions()[0] - mesh.positions()[v]).norm());
+  const VertexAttribute& birth = mesh.attributes()[mesh.attributes().find("birth")];
+  EXPECT_FLOAT_EQ(birth.values[birth.components * v], (mesh.positions()[0] - mesh.positions()[v]).norm());
 }
 
 TEST(DeltaDecay, HalvesInItsHalfLifeAndIsOffWithoutOne) {

@@ -88,5 +88,52 @@ TEST(UpkeepNewVertices, AttributesFollowAndUntouchedVerticesKeepEverything) {
   EXPECT_EQ(report.fresh, fresh);
 }
 
+/// A sphere with edges of 0.2 to 0.4 h, half of it made by re-meshing.
+class HalfRemeshed : public ::testing::Test {
+ protected:
+  static constexpr double kCell = 0.1;
+
+  HalfRemeshed() {
+    note_birth(mesh_);
+    for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
+      if (is_in_remeshed_half(v)) remeshed_.push_back(v);
+    }
+    mark_as_remeshed(mesh_, remeshed_);
+  }
+
+  bool is_in_remeshed_half(std::uint32_t v) const { return mesh_.positions()[v].x() > 0.0F; }
+
+  TriangleMesh mesh_ = test::make_sphere(Vec3d::Zero(), 0.6, 5);
+  std::vector<std::uint32_t> remeshed_;
+};
+
+TEST_F(HalfRemeshed, BecomesCoarserWhereItHasNoDetail) {
+  const TriangleMesh before = mesh_;
+  const Parameters parameters = test::parameters_for_cells_of(kCell);
+  const UpkeepReport report = keep_up(mesh_, parameters);
+  EXPECT_GT(report.collapses, remeshed_.size() / 2);
+  EXPECT_EQ(report.splits, 0U);
+  std::size_t kept = 0;
+  for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) kept += is_in_remeshed_half(v) ? 0 : 1;
+  EXPECT_EQ(kept, before.vertex_count() - remeshed_.size()) << "all of the other half";
+  for (const Triangle& t : mesh_.triangles()) {
+    if (!std::all_of(t.begin(), t.end(), [this](std::uint32_t v) { return is_in_remeshed_half(v); })) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_GE((mesh_.positions()[t[k]] - mesh_.positions()[t[(k + 1) % 3]]).norm(), 0.5F * kCell);
+    }
+  }
+  EXPECT_NEAR(test::enclosed_volume(mesh_.positions(), mesh_.triangles()),
+              test::enclosed_volume(before.positions(), before.triangles()), 2e-3);
+  EXPECT_FALSE(keep_up(mesh_, parameters).has_changes()) << "once is enough";
+}
+
+TEST_F(HalfRemeshed, StaysAsItIsWithoutALengthForIt) {
+  const TriangleMesh before = mesh_;
+  Parameters parameters = test::parameters_for_cells_of(kCell);
+  parameters.remeshed_length = 0.0;
+  EXPECT_FALSE(keep_up(mesh_, parameters).has_changes());
+  EXPECT_EQ(mesh_.positions(), before.positions());
+}
+
 }  // namespace
 }  // namespace particle_surface_tracker

@@ -101,6 +101,7 @@ struct Parameters {
   double split_growth = 2.0;        // ... if it is longer than this times the edges at birth.
   double collapse_length = 0.2;     // A shorter edge is collapsed [Δx_Γ],
   double collapse_shrinkage = 0.3;  // ... if it is shorter than this times the edges at birth.
+  double remeshed_length = 0.5;     // Where re-meshing made both ends, a shorter edge is collapsed [Δx_Γ].
   double fold_angle = 160.0;        // An edge whose triangles' normals differ by more is collapsed [deg].
   double sliver_angle = 10.0;       // A triangle with a smaller angle is removed [deg].
 

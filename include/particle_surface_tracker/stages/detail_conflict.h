@@ -13,8 +13,7 @@
 
 namespace particle_surface_tracker {
 
-/// Particles of a frame that the mesh does not hold (they are outside and farther than `reach` from it), near which
-/// there is liquid of φ that is not in the mesh.
+/// Particles of a frame that the mesh does not hold: they are outside and farther than `reach` from it.
 /// \param particles [m].
 /// \param mesh_query the mesh before `matched`.
 /// \param matched what became of Γ since; empty if nothing did.
@@ -22,9 +21,13 @@ namespace particle_surface_tracker {
 /// \param reach [m].
 /// \return their positions [m], in the order of the particles; none where `detection` is kTau.
 std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles, const MeshQuery& mesh_query,
-                                            const MatchedVoxelization& matched, const TriangleMesh& mesh,
-                                            const IsosurfaceQuery& isosurface, double reach,
+                                            const MatchedVoxelization& matched, const TriangleMesh& mesh, double reach,
                                             const Parameters& parameters);
+
+/// Those of some uncovered particles near which there is liquid of φ that is not in the mesh.
+std::vector<Vec3f> near_missing_liquid(const std::vector<Vec3f>& uncovered, const MeshQuery& mesh_query,
+                                       const MatchedVoxelization& matched, const IsosurfaceQuery& isosurface,
+                                       const Parameters& parameters);
 
 /// Nodes of Γ where detail and topology cannot both be had, so that Γ has to have the side of φ: around particles that
 /// the mesh does not hold, in scraps of mesh that belong to a body, and along the shortest way through liquid from

@@ -47,8 +47,9 @@ UpkeepReport keep_up(TriangleMesh& mesh, const Parameters& parameters);
 /// \throw MeshError if the mesh is not closed, oriented and manifold.
 void note_birth(TriangleMesh& mesh);
 
-/// Makes the next note_birth() or keep_up() measure these vertices anew, for instance those of a re-meshed region.
-void forget_birth(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices);
+/// Makes these vertices new ones that re-meshing has made: the next note_birth() or keep_up() measures them anew. They
+/// carry no detail of the first mesh, so that edges between them may be collapsed for being small alone.
+void mark_as_remeshed(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices);
 
 /// Lets δ decay exponentially with the half-life of the parameters, where there is one.
 /// \param elapsed_seconds since the last call [s]; nothing happens unless it is positive.

@@ -198,20 +198,29 @@ class Ways {
 }  // namespace
 
 std::vector<Vec3f> find_uncovered_particles(const std::vector<Vec3f>& particles, const MeshQuery& mesh_query,
-                                            const MatchedVoxelization& matched, const TriangleMesh& mesh,
-                                            const IsosurfaceQuery& isosurface, double reach,
+                                            const MatchedVoxelization& matched, const TriangleMesh& mesh, double reach,
                                             const Parameters& parameters) {
   if (parameters.detection == DetectionMethod::kTau) return {};
-  const double h = mesh_query.lattice().h();
-  const LineSigns& before = mesh_query.signs();
   std::vector<Vec3f> uncovered;
-  for (const std::uint32_t p : find_uncovered_particles(particles, before, matched, mesh, h, reach)) {
-    const NodeMasks around = masks_of(nodes_around(particles[p], h, kAroundParticle * parameters.particle_spacing));
-    NodeMasks missing = isosurface.field().liquid(around);
-    remove_nodes(missing, inside_by_gamma(around, before, matched));
-    if (!is_empty(missing)) uncovered.push_back(particles[p]);
+  for (const std::uint32_t p :
+       find_uncovered_particles(particles, mesh_query.signs(), matched, mesh, mesh_query.lattice().h(), reach)) {
+    uncovered.push_back(particles[p]);
   }
   return uncovered;
+}
+
+std::vector<Vec3f> near_missing_liquid(const std::vector<Vec3f>& uncovered, const MeshQuery& mesh_query,
+                                       const MatchedVoxelization& matched, const IsosurfaceQuery& isosurface,
+                                       const Parameters& parameters) {
+  const double h = mesh_query.lattice().h();
+  std::vector<Vec3f> found;
+  for (const Vec3f& particle : uncovered) {
+    const NodeMasks around = masks_of(nodes_around(particle, h, kAroundParticle * parameters.particle_spacing));
+    NodeMasks missing = isosurface.field().liquid(around);
+    remove_nodes(missing, inside_by_gamma(around, mesh_query.signs(), matched));
+    if (!is_empty(missing)) found.push_back(particle);
+  }
+  return found;
 }
 
 std::vector<Coord> find_conflicting_nodes(const MeshQuery& mesh_query, const ComponentDisagreement& pieces,

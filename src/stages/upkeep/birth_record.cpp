@@ -12,7 +12,9 @@ namespace particle_surface_tracker {
 namespace {
 
 constexpr const char* kAttributeName = "birth";
-constexpr std::size_t kComponents = 4;
+constexpr std::size_t kComponents = 5;
+/// Blends of ones are rounded.
+constexpr float kWhollyRemeshed = 0.999F;
 
 Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles()[triangle];
@@ -43,7 +45,7 @@ BirthRecords::BirthRecords(TriangleMesh& mesh) : mesh_(mesh), attribute_(mesh.at
 
 BirthRecord BirthRecords::of(std::uint32_t vertex) const {
   const float* values = mesh_.attributes()[attribute_].values.data() + kComponents * vertex;
-  return {values[0], values[1], values[2], values[3]};
+  return {values[0], values[1], values[2], values[3], values[4]};
 }
 
 void BirthRecords::set(std::uint32_t vertex, const BirthRecord& record) {
@@ -52,6 +54,7 @@ void BirthRecords::set(std::uint32_t vertex, const BirthRecord& record) {
   values[1] = record.longest_edge;
   values[2] = record.smallest_angle;
   values[3] = record.largest_fold;
+  values[4] = record.remeshed;
 }
 
 bool BirthRecords::all_noted() const {
@@ -61,15 +64,22 @@ bool BirthRecords::all_noted() const {
   return true;
 }
 
-void BirthRecords::forget(std::uint32_t vertex) {
-  set(vertex, {});
+void BirthRecords::begin_remeshed(std::uint32_t vertex) {
+  BirthRecord record;
+  record.remeshed = 1.0F;
+  set(vertex, record);
+}
+
+bool BirthRecords::is_remeshed(std::uint32_t vertex) const {
+  return of(vertex).remeshed > kWhollyRemeshed;
 }
 
 void BirthRecords::note_missing(const std::vector<std::uint32_t>& twins) {
   std::vector<bool> missing(mesh_.vertex_count());
   for (std::uint32_t v = 0; v < missing.size(); ++v) {
     missing[v] = !is_noted(v);
-    if (missing[v]) set(v, {std::numeric_limits<float>::max(), 0.0F, std::numeric_limits<float>::max(), 0.0F});
+    constexpr float kUnbounded = std::numeric_limits<float>::max();
+    if (missing[v]) set(v, {kUnbounded, 0.0F, kUnbounded, 0.0F, of(v).remeshed});
   }
   for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
     const Triangle& triangle = mesh_.triangles()[t];
@@ -83,7 +93,8 @@ void BirthRecords::note_missing(const std::vector<std::uint32_t>& twins) {
         if (!missing[v]) continue;
         const BirthRecord before = of(v);
         set(v, {std::min(before.shortest_edge, rounded_down(length)), std::max(before.longest_edge, rounded_up(length)),
-                std::min(before.smallest_angle, rounded_down(angle)), std::max(before.largest_fold, rounded_up(fold))});
+                std::min(before.smallest_angle, rounded_down(angle)), std::max(before.largest_fold, rounded_up(fold)),
+                before.remeshed});
       }
     }
   }

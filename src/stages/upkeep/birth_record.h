@@ -14,6 +14,7 @@ struct BirthRecord {
   float longest_edge = 0.0F;    ///< [m]; 0 where nothing has been noted yet.
   float smallest_angle = 0.0F;  ///< [rad]; of the triangles at the vertex.
   float largest_fold = 0.0F;    ///< [rad]; largest fold_between() at the edges of the vertex.
+  float remeshed = 0.0F;        ///< 1 for vertices made by re-meshing and what came of them alone, else less.
 };
 
 /// The records of all vertices; they live in a vertex attribute and follow every operation.
@@ -31,7 +32,11 @@ class BirthRecords {
   /// \param twins as made by pair_half_edges().
   void note_missing(const std::vector<std::uint32_t>& twins);
 
-  void forget(std::uint32_t vertex);
+  /// Makes a vertex one that re-meshing has made and that has not been noted yet.
+  void begin_remeshed(std::uint32_t vertex);
+
+  /// Whether re-meshing alone has made the surface at a vertex, which therefore carries no detail of the first mesh.
+  bool is_remeshed(std::uint32_t vertex) const;
 
   /// Length above which no edge between two vertices was at birth [m].
   double longest_edge(std::uint32_t a, std::uint32_t b) const;

@@ -11,12 +11,15 @@ bool Clearance::stays_clear(const EditableSurface& surface, const PlannedPatch& 
   for (const PatchTriangle& triangle : patch.triangles) {
     planned_.push_back(make_boxed(triangle.vertices, triangle.corners));
   }
+  find_others(planned_, patch, surroundings);
+  if (!crosses(surface, planned_)) return true;
+
   replaced_.clear();
   for (const std::uint32_t t : patch.replaced) {
     replaced_.push_back(make_boxed(surface.triangle(t), surface.corners(t)));
   }
-  find_others(patch, surroundings);
-  return !crosses(surface, planned_) || crosses(surface, replaced_);
+  find_others(replaced_, patch, surroundings);
+  return crosses(surface, replaced_);
 }
 
 /// The corners are stored as floats, so the box is exact.
@@ -26,14 +29,15 @@ Clearance::BoxedTriangle Clearance::make_boxed(const Triangle& vertices, const C
   return boxed;
 }
 
-/// The triangles whose box meets that of the patch or of what it replaces; without the latter.
-void Clearance::find_others(const PlannedPatch& patch, const Surroundings& surroundings) {
+/// The entries whose box meets that of all the triangles together; without those of what the patch replaces.
+void Clearance::find_others(const std::vector<BoxedTriangle>& triangles, const PlannedPatch& patch,
+                            const Surroundings& surroundings) {
   Eigen::AlignedBox3f box;
-  for (const BoxedTriangle& planned : planned_) box.extend(planned.box);
-  for (const BoxedTriangle& replaced : replaced_) box.extend(replaced.box);
+  for (const BoxedTriangle& triangle : triangles) box.extend(triangle.box);
   others_.clear();
-  surroundings.for_each_near(box, [&](std::uint32_t t) {
-    if (std::find(patch.replaced.begin(), patch.replaced.end(), t) == patch.replaced.end()) others_.push_back(t);
+  surroundings.for_each_near(box, [&](const Surroundings::Entry& entry) {
+    const auto& replaced = patch.replaced;
+    if (std::find(replaced.begin(), replaced.end(), entry.triangle) == replaced.end()) others_.push_back(entry);
   });
 }
 
@@ -43,14 +47,14 @@ bool Clearance::crosses(const EditableSurface& surface, const std::vector<BoxedT
       if (triangles_cross(triangles[i].triangle, triangles[j].triangle)) return true;
     }
   }
-  for (const std::uint32_t other : others_) {
-    const Triangle& vertices = surface.triangle(other);
-    Eigen::AlignedBox3f box;
-    for (const std::uint32_t vertex : vertices) box.extend(surface.stored_position(vertex));
+  for (const Surroundings::Entry& other : others_) {
     std::optional<PlacedTriangle> placed;
     for (const BoxedTriangle& triangle : triangles) {
-      if (!triangle.box.intersects(box)) continue;
-      if (!placed) placed = place_triangle(vertices, surface.corners(other));
+      if (!triangle.box.intersects(other.box)) continue;
+      if (!placed) {
+        if (!surface.is_alive(other.triangle)) break;
+        placed = place_triangle(surface.triangle(other.triangle), surface.corners(other.triangle));
+      }
       if (triangles_cross(triangle.triangle, *placed)) return true;
     }
   }

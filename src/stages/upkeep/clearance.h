@@ -25,12 +25,13 @@ class Clearance {
   };
 
   static BoxedTriangle make_boxed(const Triangle& vertices, const Corners& corners);
-  void find_others(const PlannedPatch& patch, const Surroundings& surroundings);
+  void find_others(const std::vector<BoxedTriangle>& triangles, const PlannedPatch& patch,
+                   const Surroundings& surroundings);
   bool crosses(const EditableSurface& surface, const std::vector<BoxedTriangle>& triangles) const;
 
   // Memory for the search.
   std::vector<BoxedTriangle> planned_, replaced_;
-  std::vector<std::uint32_t> others_;
+  std::vector<Surroundings::Entry> others_;
 };
 
 }  // namespace particle_surface_tracker

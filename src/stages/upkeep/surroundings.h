@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,9 +13,15 @@ namespace particle_surface_tracker {
 
 /// Finds the triangles near a place. Lattices of cells that double in size, each triangle in one cell of the lattice
 /// whose cells are just larger than it: entering one is a single step however large it is, and a search
-/// looks at a few cells of each lattice in use. The cells are slots of a hash table.
+/// looks at a few cells of each lattice in use. Blocks of 4³ cells are slots of a hash table: a search, which has few
+/// of them, finds what it needs side by side in memory.
 class Surroundings {
  public:
+  struct Entry {
+    Eigen::AlignedBox3f box;  ///< When it was entered; a triangle that changes is entered anew.
+    std::uint32_t triangle;
+  };
+
   /// Enters all triangles of a surface.
   /// \param smallest_cell side of the finest cells [m].
   Surroundings(const EditableSurface& surface, double smallest_cell);
@@ -22,7 +29,8 @@ class Surroundings {
   /// Enters a triangle that is new or has changed.
   void enter(std::uint32_t triangle);
 
-  /// Calls visit(triangle) for triangles whose box meets `box`, and for a few that have moved since; some maybe twice.
+  /// Calls visit(entry) for all entries whose box meets `box`, also for those of triangles that have changed since they
+  /// were entered or are gone.
   template <typename Visit>
   void for_each_near(const Eigen::AlignedBox3f& box, Visit&& visit) const {
     for (std::size_t level = 0; level < kLevels; ++level) {
@@ -34,12 +42,8 @@ class Surroundings {
         for (const LaterEntry& later : later_entries_) visit_entry(later.entry, box, visit);
         return;
       }
-      for (std::int64_t y = first[1] - 1; y <= last[1]; ++y) {
-        for (std::int64_t z = first[2] - 1; z <= last[2]; ++z) {
-          const std::uint64_t row = row_of(y, z, level);
-          for (std::int64_t x = first[0] - 1; x <= last[0]; ++x) visit_slot(slot_of(row, x), box, visit);
-        }
-      }
+      for_each_row({first[0] - 1, first[1] - 1, first[2] - 1}, last, level,
+                   [&](std::size_t slot, std::size_t length) { visit_slots(slot, length, box, visit); });
     }
   }
 
@@ -48,10 +52,9 @@ class Surroundings {
   static constexpr std::size_t kLevels = 40;
   static constexpr std::uint32_t kEnd = 0xffffffffU;
 
-  struct Entry {
-    Eigen::AlignedBox3f box;  // when it was entered; a triangle that has changed is entered anew
-    std::uint32_t triangle;
-  };
+  /// Cells of a block along an axis, as a power of 2.
+  static constexpr int kBlockBits = 2;
+  static constexpr std::int64_t kBlockSide = std::int64_t{1} << kBlockBits;
 
   struct LaterEntry {
     Entry entry;
@@ -70,38 +73,68 @@ class Surroundings {
   };
 
   Place place_of(std::uint32_t triangle) const;
+  Entry& entry_at(std::uint32_t index);
+
+  /// Calls visit(first slot, number of slots) for the rows of cells along x in each block, for a box of cells.
+  template <typename Visit>
+  void for_each_row(const Cell& first, const Cell& last, std::size_t level, Visit&& visit) const {
+    // Shifts of signed numbers round down.
+    for (std::int64_t z0 = first[2] >> kBlockBits; z0 <= last[2] >> kBlockBits; ++z0) {
+      for (std::int64_t y0 = first[1] >> kBlockBits; y0 <= last[1] >> kBlockBits; ++y0) {
+        for (std::int64_t x0 = first[0] >> kBlockBits; x0 <= last[0] >> kBlockBits; ++x0) {
+          const std::size_t slot = first_slot_of({x0, y0, z0}, level);
+          const Cell begin = {x0 * kBlockSide, y0 * kBlockSide, z0 * kBlockSide};
+          const std::int64_t x = std::max(first[0], begin[0]), x_end = std::min(last[0] + 1, begin[0] + kBlockSide);
+          const std::int64_t z_end = std::min(last[2] + 1, begin[2] + kBlockSide);
+          const std::int64_t y_end = std::min(last[1] + 1, begin[1] + kBlockSide);
+          for (std::int64_t z = std::max(first[2], begin[2]); z < z_end; ++z) {
+            for (std::int64_t y = std::max(first[1], begin[1]); y < y_end; ++y) {
+              visit(slot + slot_in_block({x, y, z}), static_cast<std::size_t>(x_end - x));
+            }
+          }
+        }
+      }
+    }
+  }
 
   template <typename Visit>
-  void visit_slot(std::size_t slot, const Eigen::AlignedBox3f& box, Visit& visit) const {
-    for (std::uint32_t e = slots_[slot].begin; e != slots_[slot + 1].begin; ++e) {
+  void visit_slots(std::size_t slot, std::size_t count, const Eigen::AlignedBox3f& box, Visit& visit) const {
+    for (std::uint32_t e = slots_[slot].begin; e != slots_[slot + count].begin; ++e) {
       visit_entry(first_entries_[e], box, visit);
     }
-    for (std::uint32_t e = slots_[slot].later; e != kEnd; e = later_entries_[e].next) {
-      visit_entry(later_entries_[e].entry, box, visit);
+    for (std::size_t s = slot; s < slot + count; ++s) {
+      for (std::uint32_t e = slots_[s].later; e != kEnd; e = later_entries_[e].next) {
+        visit_entry(later_entries_[e].entry, box, visit);
+      }
     }
   }
 
   template <typename Visit>
   void visit_entry(const Entry& entry, const Eigen::AlignedBox3f& box, Visit& visit) const {
-    if (entry.box.intersects(box) && surface_.is_alive(entry.triangle)) visit(entry.triangle);
+    if (entry.box.intersects(box)) visit(entry);
   }
 
   bool has_more_cells_than_entries(const Cell& first, const Cell& last) const;
   Cell cell_of(const Vec3f& position, std::size_t level) const;
-  /// Cells that follow each other along x have slots that follow each other: a search reads a row of them at once.
-  std::size_t slot_of(std::uint64_t row, std::int64_t x) const {
-    return (row + static_cast<std::uint64_t>(x)) & slot_mask_;
-  }
-  static std::uint64_t row_of(std::int64_t y, std::int64_t z, std::size_t level);
+  /// \param block position in units of blocks.
+  std::size_t first_slot_of(const Cell& block, std::size_t level) const;
+  static std::size_t slot_in_block(const Cell& cell);
 
   const EditableSurface& surface_;
   std::array<double, kLevels> inverse_cell_size_{};
   std::array<bool, kLevels> level_in_use_{};
-  std::uint64_t slot_mask_;
+  std::uint64_t block_mask_;
   std::vector<Slot> slots_;  // and one more, where the first entries end
   /// Those of the constructor, by slot: what is searched together lies together.
   std::vector<Entry> first_entries_;
   std::vector<LaterEntry> later_entries_;
+
+  /// Where the last entry of each triangle is.
+  struct LastEntry {
+    std::uint32_t slot;
+    std::uint32_t index;  // of the first entries, then of the later ones
+  };
+  std::vector<LastEntry> last_entries_;
 };
 
 }  // namespace particle_surface_tracker

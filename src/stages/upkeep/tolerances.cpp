@@ -20,6 +20,8 @@ Tolerances::Tolerances(const BirthRecords& births, const Parameters& parameters)
       split_growth_(parameters.split_growth),
       collapse_length_(parameters.collapse_length * parameters.dx_gamma * parameters.particle_spacing),
       collapse_shrinkage_(parameters.collapse_shrinkage),
+      remeshed_length_(parameters.remeshed_length * parameters.dx_gamma * parameters.particle_spacing),
+      squared_longest_short_edge_(std::pow(std::max(collapse_length_, remeshed_length_), 2)),
       fold_angle_(parameters.fold_angle * kRadiansPerDegree),
       cosine_of_fold_angle_(std::cos(fold_angle_)),
       sine_of_sliver_angle_(std::sin(parameters.sliver_angle * kRadiansPerDegree)) {}
@@ -29,6 +31,7 @@ double Tolerances::longest_edge(std::uint32_t a, std::uint32_t b) const {
 }
 
 double Tolerances::shortest_edge(std::uint32_t a, std::uint32_t b) const {
+  if (births_.is_remeshed(a) && births_.is_remeshed(b)) return remeshed_length_;
   return std::min(collapse_shrinkage_ * births_.shortest_edge(a, b), collapse_length_);
 }
 

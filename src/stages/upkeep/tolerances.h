@@ -30,7 +30,7 @@ class Tolerances {
 
   /// Short, or with both ends at the same place: the latter at any age, since readers of files weld by position.
   bool is_short(std::uint32_t a, std::uint32_t b, double squared_length) const {
-    if (squared_length >= collapse_length_ * collapse_length_) return false;
+    if (squared_length >= squared_longest_short_edge_) return false;
     const double limit = shortest_edge(a, b);
     return squared_length < limit * limit || squared_length == 0.0;
   }
@@ -64,6 +64,8 @@ class Tolerances {
   double split_growth_;
   double collapse_length_;
   double collapse_shrinkage_;
+  double remeshed_length_;
+  double squared_longest_short_edge_;  // No edge of this length is short, whatever its birth [m²].
   double fold_angle_;
   double cosine_of_fold_angle_;
   double sine_of_sliver_angle_;

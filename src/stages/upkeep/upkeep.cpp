@@ -279,9 +279,9 @@ void note_birth(TriangleMesh& mesh) {
   births.note_missing(twins);
 }
 
-void forget_birth(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
+void mark_as_remeshed(TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
   BirthRecords births(mesh);
-  for (const std::uint32_t vertex : vertices) births.forget(vertex);
+  for (const std::uint32_t vertex : vertices) births.begin_remeshed(vertex);
 }
 
 }  // namespace particle_surface_tracker

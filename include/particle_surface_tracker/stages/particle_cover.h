@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "particle_surface_tracker/core/triangle_mesh.h"
+
+namespace particle_surface_tracker {
+
+/// Brings re-meshed surface to within r of particles that it just misses, as at the tip of a jet, which triangles cut
+/// off. Surface with vertices of the first mesh stays where it is, and so does all that is farther than 1.25 r; nothing
+/// is moved so that triangles turn their fronts away or cross each other.
+/// \param first_new_id ids from here on were not in the first mesh.
+/// \param particles those that may be missed, all of them outside [m].
+/// \param r particle spacing [m].
+/// \return the vertices that have moved, by at most 0.9 r: increasing indices. Their δ must be measured.
+std::vector<std::uint32_t> cover_particles(TriangleMesh& mesh, std::uint32_t first_new_id,
+                                           const std::vector<Vec3f>& particles, double r);
+
+}  // namespace particle_surface_tracker

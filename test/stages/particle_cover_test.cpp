@@ -1,0 +1,147 @@
+// Re-meshed surface reaches out for particles that it just misses.
+
+#include "particle_surface_tracker/stages/particle_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "sequences/mesh_judge.h"
+#include "sequences/solid_judge.h"
+#include "support/detailed_body.h"
+#include "support/shapes.h"
+
+namespace particle_surface_tracker {
+namespace {
+
+constexpr double kSpacing = 0.1;
+constexpr double kRadius = 0.5;
+
+/// Edges of about 0.06.
+const TriangleMesh kBody = test::make_sphere(Vec3d::Zero(), kRadius, 4);
+
+/// A particle outside the body, in units of r from its surface.
+Vec3f particle_at(double distance, const Vec3d& direction = Vec3d(0.31, 0.47, 0.83)) {
+  return (direction.normalized() * (kRadius + distance * kSpacing)).cast<float>();
+}
+
+double distance_to(const TriangleMesh& mesh, const Vec3f& particle) {
+  return test::SolidJudge(mesh.positions(), mesh.triangles()).nearest(particle).distance;
+}
+
+TEST(ParticleCover, ReachesAParticleThatIsJustMissed) {
+  TriangleMesh mesh = kBody;
+  const Vec3f particle = particle_at(1.1);
+  ASSERT_GT(distance_to(mesh, particle), kSpacing);
+  const std::vector<std::uint32_t> moved = cover_particles(mesh, 0, {particle}, kSpacing);
+  EXPECT_NEAR(distance_to(mesh, particle), 0.98 * kSpacing, 1e-3 * kSpacing);
+  ASSERT_EQ(moved.size(), 3U);
+  EXPECT_TRUE(std::is_sorted(moved.begin(), moved.end()));
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const bool has_moved = mesh.positions()[v] != kBody.positions()[v];
+    EXPECT_EQ(has_moved, std::binary_search(moved.begin(), moved.end(), v));
+    EXPECT_LT((mesh.positions()[v] - kBody.positions()[v]).norm(), 0.2 * kSpacing);
+  }
+}
+
+TEST(ParticleCover, IsContentWithWhatIsCovered) {
+  TriangleMesh mesh = kBody;
+  EXPECT_TRUE(cover_particles(mesh, 0, {particle_at(0.9)}, kSpacing).empty());
+  EXPECT_TRUE(cover_particles(mesh, 0, {}, kSpacing).empty());
+  EXPECT_EQ(mesh.positions(), kBody.positions());
+}
+
+TEST(ParticleCover, LeavesWhatIsFarAway) {
+  TriangleMesh mesh = kBody;
+  EXPECT_TRUE(cover_particles(mesh, 0, {particle_at(1.3), particle_at(50.0), Vec3f(1e30F, 0, 0)}, kSpacing).empty());
+  EXPECT_EQ(mesh.positions(), kBody.positions());
+}
+
+TEST(ParticleCover, NeverMovesTheFirstMesh) {
+  TriangleMesh mesh = kBody;
+  const auto first_new_id = static_cast<std::uint32_t>(mesh.vertex_count());
+  EXPECT_TRUE(cover_particles(mesh, first_new_id, {particle_at(1.1)}, kSpacing).empty());
+  EXPECT_EQ(mesh.positions(), kBody.positions());
+}
+
+TEST(ParticleCover, MovesOnlyTheNewCornersOfATriangle) {
+  TriangleMesh mesh = kBody;
+  const std::uint32_t first_new_id = mesh.next_id() / 2;
+  std::size_t all = 0;
+  for (int n = 0; n < 200; ++n) {
+    const double angle = 0.03 * n;
+    const Vec3f particle = particle_at(1.1, {std::cos(angle), std::sin(angle), 0.1});
+    for (const std::uint32_t v : cover_particles(mesh, first_new_id, {particle}, kSpacing)) {
+      EXPECT_GE(v, first_new_id);
+      ++all;
+    }
+  }
+  EXPECT_GT(all, 0U);
+  for (std::uint32_t v = 0; v < first_new_id; ++v) EXPECT_EQ(mesh.positions()[v], kBody.positions()[v]);
+}
+
+/// A place close above a triangle, not above its middle: where its neighbour is when that has been moved outwards.
+Vec3d place_above(const TriangleMesh& mesh, const Triangle& triangle, const Vec3d& beside) {
+  Vec3d place = Vec3d::Zero();
+  double weights = 0.0;
+  for (const std::uint32_t v : triangle) {
+    const Vec3d corner = mesh.positions()[v].cast<double>();
+    // Nearer to the corners that are nearer to the other triangle.
+    const double weight = 1.0 / (corner - beside).squaredNorm();
+    place += weight * corner;
+    weights += weight;
+  }
+  return place / weights * (1.0 + 0.02 * kSpacing / kRadius);
+}
+
+TEST(ParticleCover, MakesNothingCross) {
+  const Triangle& moving = kBody.triangles()[700];
+  Vec3d center = Vec3d::Zero();
+  for (const std::uint32_t v : moving) center += kBody.positions()[v].cast<double>() / 3.0;
+  const Vec3f particle = particle_at(1.12, center);
+  TriangleMesh free = kBody;
+  ASSERT_EQ(cover_particles(free, 0, {particle}, kSpacing).size(), 3U);
+
+  const auto neighbor = std::find_if(kBody.triangles().begin(), kBody.triangles().end(), [&](const Triangle& t) {
+    return t != moving && std::count_if(t.begin(), t.end(), [&](std::uint32_t v) {
+                            return std::find(moving.begin(), moving.end(), v) != moving.end();
+                          }) == 2;
+  });
+  ASSERT_NE(neighbor, kBody.triangles().end());
+  const TriangleMesh speck = test::make_sphere(place_above(kBody, *neighbor, center), 0.01 * kSpacing, 0);
+  TriangleMesh mesh = test::joined({kBody, speck});
+  ASSERT_EQ(test::count_self_intersecting_triangles(mesh.positions(), mesh.triangles()), 0U);
+  const TriangleMesh before = mesh;
+  EXPECT_TRUE(cover_particles(mesh, 0, {particle}, kSpacing).empty());
+  EXPECT_EQ(mesh.positions(), before.positions());
+}
+
+TEST(ParticleCover, HoldsForManyParticlesAtARoughBody) {
+  constexpr double r = 0.02;
+  const test::DetailedBody body(r);
+  TriangleMesh mesh = body.mesh();
+  ASSERT_EQ(test::count_self_intersecting_triangles(mesh.positions(), mesh.triangles()), 0U);
+  const test::SolidJudge judge(mesh.positions(), mesh.triangles());
+  std::mt19937 random(20171);
+  std::uniform_int_distribution<std::size_t> vertex(0, mesh.vertex_count() - 1);
+  std::normal_distribution<double> offset(0.0, r);
+  std::vector<Vec3f> particles;
+  while (particles.size() < 300) {
+    const Vec3d near = mesh.positions()[vertex(random)].cast<double>();
+    const Vec3f particle = (near + Vec3d(offset(random), offset(random), offset(random))).cast<float>();
+    if (judge.winding_number(particle) != 0) continue;
+    const double distance = judge.nearest(particle).distance;
+    if (distance > r && distance < 1.25 * r) particles.push_back(particle);
+  }
+  EXPECT_GT(cover_particles(mesh, 0, particles, r).size(), 300U);
+  EXPECT_EQ(test::count_self_intersecting_triangles(mesh.positions(), mesh.triangles()), 0U);
+  const test::SolidJudge after(mesh.positions(), mesh.triangles());
+  const auto covered = std::count_if(particles.begin(), particles.end(),
+                                     [&](const Vec3f& particle) { return after.nearest(particle).distance <= r; });
+  EXPECT_GT(covered, 270);
+}
+
+}  // namespace
+}  // namespace particle_surface_tracker
