@@ -221,6 +221,9 @@ FrameReport Tracker::start_from_particles(const ParticleFrame& frame, std::uint6
   FrameReport report;
   report.frame = frame_index;
   StageTimer timer(report);
+  timer.begin("checks");
+  // Before the surface: with a spacing that is far off it takes all time and memory there is, or is one great drop.
+  check_spacing_fits_particles(frame, state_->r());
   auto surface = make_implicit_surface(frame, state_->parameters, timer);
   if (surface->triangulation.triangles.empty()) {
     throw TrackingError(
