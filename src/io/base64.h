@@ -5,7 +5,7 @@
 
 namespace particle_surface_tracker {
 
-/// Bytes as text (RFC 4648), in one line.
-std::string base64(std::string_view bytes);
+/// Appends bytes as base64 (RFC 4648), in one line.
+void append_base64(std::string& text, std::string_view bytes);
 
 }  // namespace particle_surface_tracker

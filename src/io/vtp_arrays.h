@@ -18,17 +18,20 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the header says Little
 // quarter smaller, raw or not, but ParaView 5.11 with libexpat 2.5.0-1+deb12u5, Debian 12's, refuses such files: "junk
 // after document element".
 
-/// The XML of an array of a VTK file.
+/// Appends the XML of an array of a VTK file.
 /// \param type in VTK's words.
 template <typename Number>
-std::string vtp_array(const char* type, const std::string& name, std::size_t components,
+void append_vtp_array(std::string& xml, const char* type, const std::string& name, std::size_t components,
                       const std::vector<Number>& values) {
   const std::uint64_t size = values.size() * sizeof(Number);
-  std::string bytes(reinterpret_cast<const char*>(&size), sizeof(size));
+  std::string bytes;
+  bytes.reserve(sizeof(size) + size);
+  bytes.append(reinterpret_cast<const char*>(&size), sizeof(size));
   bytes.append(reinterpret_cast<const char*>(values.data()), size);
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n</DataArray>\n", type, name,
-      components, base64(bytes));
+  xml += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n", type, name,
+                     components);
+  append_base64(xml, bytes);
+  xml += "\n</DataArray>\n";
 }
 
 /// The whole file around a piece of XML.

@@ -13,35 +13,39 @@
 namespace particle_surface_tracker {
 namespace {
 
-std::string attribute_array(const VertexAttribute& attribute) {
+void append_attribute(std::string& xml, const VertexAttribute& attribute) {
   if (attribute.name != TriangleMesh::color_name) {
-    return vtp_array("Float32", attribute.name, attribute.components, attribute.values);
+    append_vtp_array(xml, "Float32", attribute.name, attribute.components, attribute.values);
+    return;
   }
   // As bytes ParaView takes them for colours.
   std::vector<std::uint8_t> bytes;
   bytes.reserve(attribute.values.size());
   for (const float value : attribute.values) bytes.push_back(color_byte(value));
-  return vtp_array("UInt8", attribute.name, attribute.components, bytes);
+  append_vtp_array(xml, "UInt8", attribute.name, attribute.components, bytes);
 }
 
-std::string point_data(const TriangleMesh& mesh) {
-  std::string xml = "<PointData Scalars=\"delta\">\n";
+void append_point_data(std::string& xml, const TriangleMesh& mesh) {
+  xml += "<PointData Scalars=\"delta\">\n";
   for (std::size_t i = 0; i < mesh.attributes().count(); ++i) {
     const VertexAttribute& attribute = mesh.attributes()[i];
-    if (attribute.use == AttributeUse::kOutput) xml += attribute_array(attribute);
+    if (attribute.use == AttributeUse::kOutput) append_attribute(xml, attribute);
   }
-  return xml + vtp_array("UInt32", "id", 1, mesh.ids()) + "</PointData>\n";
+  append_vtp_array(xml, "UInt32", "id", 1, mesh.ids());
+  xml += "</PointData>\n";
 }
 
-std::string points(const TriangleMesh& mesh) {
+void append_points(std::string& xml, const TriangleMesh& mesh) {
   std::vector<float> coordinates;
   coordinates.reserve(3 * mesh.vertex_count());
   for (const Vec3f& position : mesh.positions())
     coordinates.insert(coordinates.end(), position.begin(), position.end());
-  return "<Points>\n" + vtp_array("Float32", "Points", 3, coordinates) + "</Points>\n";
+  xml += "<Points>\n";
+  append_vtp_array(xml, "Float32", "Points", 3, coordinates);
+  xml += "</Points>\n";
 }
 
-std::string polygons(const TriangleMesh& mesh) {
+void append_polygons(std::string& xml, const TriangleMesh& mesh) {
   std::vector<std::int64_t> corners, ends;
   corners.reserve(3 * mesh.triangle_count());
   ends.reserve(mesh.triangle_count());
@@ -49,8 +53,10 @@ std::string polygons(const TriangleMesh& mesh) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
     ends.push_back(static_cast<std::int64_t>(corners.size()));
   }
-  return "<Polys>\n" + vtp_array("Int64", "connectivity", 1, corners) + vtp_array("Int64", "offsets", 1, ends) +
-         "</Polys>\n";
+  xml += "<Polys>\n";
+  append_vtp_array(xml, "Int64", "connectivity", 1, corners);
+  append_vtp_array(xml, "Int64", "offsets", 1, ends);
+  xml += "</Polys>\n";
 }
 
 }  // namespace
@@ -58,9 +64,9 @@ std::string polygons(const TriangleMesh& mesh) {
 void write_vtp(const std::string& path, const TriangleMesh& mesh) {
   std::string piece =
       fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n", mesh.vertex_count(), mesh.triangle_count());
-  piece += point_data(mesh);
-  piece += points(mesh);
-  piece += polygons(mesh);
+  append_point_data(piece, mesh);
+  append_points(piece, mesh);
+  append_polygons(piece, mesh);
   write_file_whole(path, vtp_file(piece + "</Piece>\n"));
 }
 

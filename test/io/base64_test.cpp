@@ -5,6 +5,12 @@
 namespace particle_surface_tracker {
 namespace {
 
+std::string base64(std::string_view bytes) {
+  std::string text = ":";
+  append_base64(text, bytes);
+  return text.substr(1);
+}
+
 TEST(Base64, IsThatOfRfc4648) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
