@@ -22,6 +22,7 @@ class MatchReport:
     born: int  # Of this frame, new
     ambiguous: int
     distance: float  # From where they were expected, median [r]
+    spacing: float  # r that was taken
 
     @property
     def unmatched(self):
@@ -66,7 +67,7 @@ class NearestMatcher:
 
         report = MatchReport(len(positions), len(self._positions) - len(old), int(np.count_nonzero(born)),
                              ambiguous_matches(expected[old], positions, distances),
-                             float(np.median(distances)) / self._spacing if len(distances) else 0.0)
+                             float(np.median(distances)) / self._spacing if len(distances) else 0.0, self._spacing)
         if velocities is not None:
             self._motion = velocities * interval
         else:

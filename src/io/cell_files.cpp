@@ -131,24 +131,28 @@ void write_cells_vdb(const std::string& path, const TopologyCells& cells) {
 void write_cells_vtp(const std::string& path, const TopologyCells& cells) {
   const Points points(cells);
   const auto count = static_cast<std::int64_t>(points.kinds.size());
-  VtpArrays arrays;
   std::string piece = fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\">\n", count, count);
-  piece += "<PointData Scalars=\"kind\">\n" + arrays.add("UInt8", "kind", 1, points.kinds);
+  piece += "<PointData Scalars=\"kind\">\n";
+  append_vtp_array(piece, "UInt8", "kind", 1, points.kinds);
   const auto named = kinds_of(cells);
   for (std::size_t k = 0; k < named.size(); ++k) {
-    piece += arrays.add("UInt8", named[k].name, 1, points.is_of_kind[k]);
+    append_vtp_array(piece, "UInt8", named[k].name, 1, points.is_of_kind[k]);
   }
-  piece += arrays.add("UInt8", "changed_nodes", 1, points.is_changed_node);
-  piece += arrays.add("Float32", "psi", 1, points.psi) + "</PointData>\n";
-  piece += "<Points>\n" + arrays.add("Float32", "Points", 3, points.places) + "</Points>\n";
+  append_vtp_array(piece, "UInt8", "changed_nodes", 1, points.is_changed_node);
+  append_vtp_array(piece, "Float32", "psi", 1, points.psi);
+  piece += "</PointData>\n<Points>\n";
+  append_vtp_array(piece, "Float32", "Points", 3, points.places);
+  piece += "</Points>\n";
   std::vector<std::int64_t> numbers, ends;
   for (std::int64_t n = 0; n < count; ++n) {
     numbers.push_back(n);
     ends.push_back(n + 1);
   }
-  piece += "<Verts>\n" + arrays.add("Int64", "connectivity", 1, numbers) + arrays.add("Int64", "offsets", 1, ends) +
-           "</Verts>\n</Piece>\n";
-  write_file_whole(path, arrays.file_around(piece));
+  piece += "<Verts>\n";
+  append_vtp_array(piece, "Int64", "connectivity", 1, numbers);
+  append_vtp_array(piece, "Int64", "offsets", 1, ends);
+  piece += "</Verts>\n</Piece>\n";
+  write_file_whole(path, vtp_file(piece));
 }
 
 CellFiles::CellFiles(std::string folder) : folder_(std::move(folder)) {

@@ -1,7 +1,9 @@
 #include "particle_surface_tracker/io/mesh_sequence.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -50,7 +52,15 @@ void MeshSequence::write(const TriangleMesh& mesh, std::uint64_t frame, std::int
   const FileFormat format = file_format(format_);
   const std::string path = frame_file(folder_, frame, format.extension);
   format.write(path, mesh);
-  if (series_) series_->add(std::filesystem::path(path).filename().string(), stamp_ns);
+  const std::string name = std::filesystem::path(path).filename().string();
+  written_.insert(name);
+  if (series_) series_->add(name, stamp_ns);
+}
+
+std::size_t MeshSequence::count_of_others() const {
+  const std::vector<std::string> names = frame_files(folder_, file_format(format_).extension);
+  return static_cast<std::size_t>(
+      std::count_if(names.begin(), names.end(), [&](const std::string& name) { return written_.count(name) == 0; }));
 }
 
 }  // namespace particle_surface_tracker

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,6 +39,17 @@ void make_sequence_folder(const std::string& folder) {
 
 std::string frame_file(const std::string& folder, std::uint64_t frame, const char* extension) {
   return (std::filesystem::path(folder) / fmt::format("frame_{:06}.{}", frame, extension)).string();
+}
+
+std::vector<std::string> frame_files(const std::string& folder, const char* extension) {
+  const std::regex pattern(fmt::format("frame_[0-9]{{6,}}\\.{}", extension));
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
+    std::string name = entry->path().filename().string();
+    if (std::regex_match(name, pattern)) names.push_back(std::move(name));
+  }
+  return names;
 }
 
 }  // namespace particle_surface_tracker

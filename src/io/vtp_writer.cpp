@@ -13,35 +13,39 @@
 namespace particle_surface_tracker {
 namespace {
 
-std::string attribute_array(VtpArrays& arrays, const VertexAttribute& attribute) {
+void append_attribute(std::string& xml, const VertexAttribute& attribute) {
   if (attribute.name != TriangleMesh::color_name) {
-    return arrays.add("Float32", attribute.name, attribute.components, attribute.values);
+    append_vtp_array(xml, "Float32", attribute.name, attribute.components, attribute.values);
+    return;
   }
   // As bytes ParaView takes them for colours.
   std::vector<std::uint8_t> bytes;
   bytes.reserve(attribute.values.size());
   for (const float value : attribute.values) bytes.push_back(color_byte(value));
-  return arrays.add("UInt8", attribute.name, attribute.components, bytes);
+  append_vtp_array(xml, "UInt8", attribute.name, attribute.components, bytes);
 }
 
-std::string point_data(VtpArrays& arrays, const TriangleMesh& mesh) {
-  std::string xml = "<PointData Scalars=\"delta\">\n";
+void append_point_data(std::string& xml, const TriangleMesh& mesh) {
+  xml += "<PointData Scalars=\"delta\">\n";
   for (std::size_t i = 0; i < mesh.attributes().count(); ++i) {
     const VertexAttribute& attribute = mesh.attributes()[i];
-    if (attribute.use == AttributeUse::kOutput) xml += attribute_array(arrays, attribute);
+    if (attribute.use == AttributeUse::kOutput) append_attribute(xml, attribute);
   }
-  return xml + arrays.add("UInt32", "id", 1, mesh.ids()) + "</PointData>\n";
+  append_vtp_array(xml, "UInt32", "id", 1, mesh.ids());
+  xml += "</PointData>\n";
 }
 
-std::string points(VtpArrays& arrays, const TriangleMesh& mesh) {
+void append_points(std::string& xml, const TriangleMesh& mesh) {
   std::vector<float> coordinates;
   coordinates.reserve(3 * mesh.vertex_count());
   for (const Vec3f& position : mesh.positions())
     coordinates.insert(coordinates.end(), position.begin(), position.end());
-  return "<Points>\n" + arrays.add("Float32", "Points", 3, coordinates) + "</Points>\n";
+  xml += "<Points>\n";
+  append_vtp_array(xml, "Float32", "Points", 3, coordinates);
+  xml += "</Points>\n";
 }
 
-std::string polygons(VtpArrays& arrays, const TriangleMesh& mesh) {
+void append_polygons(std::string& xml, const TriangleMesh& mesh) {
   std::vector<std::int64_t> corners, ends;
   corners.reserve(3 * mesh.triangle_count());
   ends.reserve(mesh.triangle_count());
@@ -49,20 +53,21 @@ std::string polygons(VtpArrays& arrays, const TriangleMesh& mesh) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
     ends.push_back(static_cast<std::int64_t>(corners.size()));
   }
-  return "<Polys>\n" + arrays.add("Int64", "connectivity", 1, corners) + arrays.add("Int64", "offsets", 1, ends) +
-         "</Polys>\n";
+  xml += "<Polys>\n";
+  append_vtp_array(xml, "Int64", "connectivity", 1, corners);
+  append_vtp_array(xml, "Int64", "offsets", 1, ends);
+  xml += "</Polys>\n";
 }
 
 }  // namespace
 
 void write_vtp(const std::string& path, const TriangleMesh& mesh) {
-  VtpArrays arrays;
   std::string piece =
       fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n", mesh.vertex_count(), mesh.triangle_count());
-  piece += point_data(arrays, mesh);
-  piece += points(arrays, mesh);
-  piece += polygons(arrays, mesh);
-  write_file_whole(path, arrays.file_around(piece + "</Piece>\n"));
+  append_point_data(piece, mesh);
+  append_points(piece, mesh);
+  append_polygons(piece, mesh);
+  write_file_whole(path, vtp_file(piece + "</Piece>\n"));
 }
 
 }  // namespace particle_surface_tracker

@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -191,6 +193,14 @@ class OfflineRun {
     // Before the parts of a bag go, no checkpoint may refer to them any more.
     if (keeps_checkpoints() && outputs.bag) save_checkpoint(outputs);
     outputs_->clean_up();
+    if (options_.resume.empty()) warn_of_leftovers();
+  }
+
+  void warn_of_leftovers() {
+    for (const auto& [folder, count] : outputs_->leftovers()) {
+      messages_.warn(fmt::format("'{}' also holds {} frame{} of another run; remove {} or choose another folder",
+                                 folder, count, count == 1 ? "" : "s", count == 1 ? "it" : "them"));
+    }
   }
 
   template <typename Reason>
@@ -212,12 +222,25 @@ class OfflineRun {
         "{} frames tracked in {:.1f} s ({:.2f} frames/s), {:.1f} s of processor time, {:.0f} MB of memory\n",
         summary_.tracked, elapsed, static_cast<double>(summary_.tracked) / elapsed, process_cpu_seconds(),
         1e-6 * static_cast<double>(process_peak_memory()));
+    if (options_.check && summary_.tracked != 0) {
+      out_ << fmt::format("checked: all {} meshes are closed, manifold and oriented\n", summary_.tracked);
+    }
     if (summary_.skipped != 0) out_ << fmt::format("{} frames skipped\n", summary_.skipped);
     if (summary_.interrupted) out_ << "interrupted; what was written so far is complete\n";
     if (summary_.interrupted && keeps_checkpoints()) {
       out_ << fmt::format("--resume {} goes on with frame {}\n", options_.checkpoint, next_);
     }
+    print_places();
     out_ << std::flush;
+  }
+
+  void print_places() {
+    std::vector<std::string> places;
+    for (const std::string& place : {options_.format || !options_.debug_cells.empty() ? options_.out : std::string(),
+                                     options_.surface, options_.vdb, options_.out_bag, options_.report}) {
+      if (!place.empty()) places.push_back(place);
+    }
+    if (!places.empty()) out_ << fmt::format("written: {}\n", fmt::join(places, ", "));
   }
 
   const OfflineOptions& options_;

@@ -99,6 +99,15 @@ OutputProgress RunOutputs::finish() {
   return progress;
 }
 
+std::vector<std::pair<std::string, std::size_t>> RunOutputs::leftovers() const {
+  std::vector<std::pair<std::string, std::size_t>> result;
+  for (const auto* meshes : {&meshes_, &surfaces_}) {
+    const std::size_t count = *meshes ? (*meshes)->count_of_others() : 0;
+    if (count != 0) result.emplace_back((*meshes)->folder(), count);
+  }
+  return result;
+}
+
 void RunOutputs::clean_up() {
   if (parts_) parts_->remove_parts();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -43,6 +44,9 @@ class RunOutputs {
   /// Completes all files for good.
   /// \throw OutputError if one cannot be completed.
   OutputProgress finish();
+
+  /// Folders of meshes in which files of another run are left, and how many.
+  std::vector<std::pair<std::string, std::size_t>> leftovers() const;
 
   /// Removes what only an earlier checkpoint refers to.
   void clean_up();

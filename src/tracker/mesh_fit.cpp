@@ -70,7 +70,15 @@ double share_outside(const TriangleMesh& mesh, const ParticleFrame& frame, doubl
   return static_cast<double>(outside) / static_cast<double>(frame.size());
 }
 
-void check_spacing(const ParticleFrame& frame, double r) {
+[[noreturn]] void throw_mismatch(const std::string& figures) {
+  throw TrackingError("the mesh does not bound these particles: " + figures +
+                      ". Is one of them in another scale, position, axis convention or frame?");
+}
+
+}  // namespace
+
+void check_spacing_fits_particles(const ParticleFrame& frame, double particle_spacing) {
+  const double r = particle_spacing;
   if (frame.size() < 2) return;
   const double estimated = estimate_particle_spacing(frame);
   if (r <= kLargestSpacingRatio * estimated && estimated <= kLargestSpacingRatio * r) return;
@@ -80,16 +88,9 @@ void check_spacing(const ParticleFrame& frame, double r) {
                   r, estimated));
 }
 
-[[noreturn]] void throw_mismatch(const std::string& figures) {
-  throw TrackingError("the mesh does not bound these particles: " + figures +
-                      ". Is one of them in another scale, position, axis convention or frame?");
-}
-
-}  // namespace
-
 void check_mesh_fits_particles(const TriangleMesh& mesh, const ParticleFrame& frame, double particle_spacing) {
   const double r = particle_spacing;
-  check_spacing(frame, r);
+  check_spacing_fits_particles(frame, r);
   const double median = median_particle_distance(mesh, frame, r);
   if (median > kLargestMedianDistance * r) {
     throw_mismatch(fmt::format(

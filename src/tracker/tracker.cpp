@@ -24,6 +24,10 @@ namespace {
 /// Farthest that the isosurface is searched for when δ is measured: details of a first mesh may hold no particle [r].
 constexpr double kInitialReach = 64.0;
 
+/// Largest share of the particles that may be replaced by others in a frame, before their ids are in doubt.
+constexpr double kLargestReplacedShare = 0.3;
+constexpr std::size_t kFewestReplaced = 100;
+
 /// The last frame; replaced as a whole once nothing can fail any more.
 struct Tracked : TrackedFrame {
   std::shared_ptr<const ImplicitSurface> surface;
@@ -77,6 +81,17 @@ std::vector<std::uint32_t> vertices_of(const TriangleMesh& mesh, const std::vect
     vertices.push_back(static_cast<std::uint32_t>(found - mesh.ids().begin()));
   }
   return vertices;
+}
+
+/// Ids that are not those of particles show as particles that vanish and appear, all over the liquid.
+void warn_of_untrue_ids(FrameReport& report, std::size_t particles) {
+  const std::size_t replaced = std::min(report.particles_gone, report.particles_born);
+  const double share = static_cast<double>(replaced) / static_cast<double>(particles);
+  if (replaced < kFewestReplaced || share <= kLargestReplacedShare) return;
+  report.warnings.push_back(
+      fmt::format("{:.0f} % of the particles vanished, and as many appeared, by their ids: are these true ids, "
+                  "and not places in an array that the simulator sorts or fills anew?",
+                  100.0 * share));
 }
 
 void require_particles(const ParticleFrame& frame) {
@@ -157,6 +172,7 @@ struct Tracker::State {
       report.warnings.push_back("no particle of this frame was in the one before; the mesh is not advected");
       return;
     }
+    warn_of_untrue_ids(report, frame.size());
     const int steps = steps_for(motion, elapsed, parameters);
     next.mesh.positions() = advect_in_steps(next.mesh.positions(), motion, steps, parameters);
   }
@@ -221,6 +237,9 @@ FrameReport Tracker::start_from_particles(const ParticleFrame& frame, std::uint6
   FrameReport report;
   report.frame = frame_index;
   StageTimer timer(report);
+  timer.begin("checks");
+  // Before the surface: with a spacing that is far off it takes all time and memory there is, or is one great drop.
+  check_spacing_fits_particles(frame, state_->r());
   auto surface = make_implicit_surface(frame, state_->parameters, timer);
   if (surface->triangulation.triangles.empty()) {
     throw TrackingError(

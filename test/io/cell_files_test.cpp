@@ -49,17 +49,29 @@ std::vector<Coord> cells_in(openvdb::io::File& file, const char* name) {
   return cells;
 }
 
+std::string bytes_of_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < text.size() && text[i] != '='; ++i) {
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(text[i]));
+    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 255);
+  }
+  return bytes;
+}
+
 /// An array of a file that write_cells_vtp() wrote.
 template <typename Number>
 std::vector<Number> array_in(const std::string& content, const std::string& name) {
   std::smatch match;
-  const std::regex element("Name=\"" + name + "\"[^>]*offset=\"([0-9]+)\"");
+  const std::regex element("Name=\"" + name + "\"[^>]*format=\"binary\">\n([A-Za-z0-9+/]*=*)\n</DataArray>");
   EXPECT_TRUE(std::regex_search(content, match, element)) << name;
-  const char* at = content.data() + content.find("encoding=\"raw\">\n_") + 17 + std::stoul(match[1]);
+  const std::string bytes = bytes_of_base64(match[1]);
   std::uint64_t size = 0;
-  std::memcpy(&size, at, sizeof(size));
+  std::memcpy(&size, bytes.data(), sizeof(size));
+  EXPECT_EQ(bytes.size(), sizeof(size) + size) << name;
   std::vector<Number> values(size / sizeof(Number));
-  std::memcpy(values.data(), at + sizeof(size), size);
+  std::memcpy(values.data(), bytes.data() + sizeof(size), size);
   return values;
 }
 
@@ -98,6 +110,7 @@ TEST(CellFiles, VtpHoldsTheCellsWithTheirKinds) {
   ASSERT_EQ(places.size(), 3 * kinds.size());
   EXPECT_EQ(places[15], 1.125F);  // The middle of cell (4, 4, 4).
   EXPECT_EQ(places[24], 0.75F);   // Node (3, 0, 0).
+  EXPECT_EQ(content.find("AppendedData"), std::string::npos);
 }
 
 TEST(CellFiles, SameCellsGiveSameBytesAndNoneAreNoError) {

@@ -77,6 +77,20 @@ TEST_F(MeshSequences, ATimeSeriesThatLacksWhatWasBeforeDoesNotGoOn) {
   EXPECT_NO_THROW(MeshSequence(folder_.path().string(), MeshFormat::kPly, 9)) << "it needs none";
 }
 
+TEST_F(MeshSequences, FilesOfAnotherRunAreCounted) {
+  MeshSequence older(folder_.path().string(), MeshFormat::kPly);
+  for (int n = 0; n < 5; ++n) older.write(mesh_, n, 0);
+  EXPECT_EQ(older.count_of_others(), 0u);
+  for (const char* name :
+       {"frame_000001.obj", "frame_1.ply", "frames.pvd", "cells_000001.ply", "frame_000007.ply.old"}) {
+    folder_.write(name, "x");
+  }
+  MeshSequence newer(folder_.path().string(), MeshFormat::kPly);
+  newer.write(mesh_, 3, 0);
+  newer.write(mesh_, 1234567, 0);
+  EXPECT_EQ(newer.count_of_others(), 4u);
+}
+
 TEST_F(MeshSequences, TryingTheFolderLeavesNothingBehind) {
   MeshSequence sequence(folder_.path().string(), MeshFormat::kPly);
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));

@@ -48,6 +48,7 @@ TEST_F(TrackBag, ChecksEveryFrameIfAsked) {
   const Outcome outcome = run_standard("--check --set topology=keep --report @/report.jsonl");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("checking"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("all 3 meshes are closed"), std::string::npos) << outcome.out;
   ASSERT_EQ(report().size(), 3u);
   for (const Json& line : report()) {
     EXPECT_GT(line["self_intersecting_triangles"], 0.0);
@@ -109,6 +110,29 @@ TEST_F(TrackBag, ImplicitMeshAndEstimatedSpacing) {
   EXPECT_NE(outcome.out.find("estimated"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("0.2 m"), std::string::npos) << outcome.out;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(TrackBag, FramesOfAnOlderRunInItsFolderAreWarnedOf) {
+  write_bag(4);
+  ASSERT_EQ(run_standard().code, 0);
+  const Outcome again = run_standard();
+  EXPECT_EQ(again.err, "");
+  const Outcome shorter = run_standard("--last 1");
+  EXPECT_EQ(shorter.code, 0);
+  EXPECT_NE(shorter.err.find("warning: '" + (folder_ / "out")), std::string::npos) << shorter.err;
+  EXPECT_NE(shorter.err.find("2 frames of another run"), std::string::npos) << shorter.err;
+  EXPECT_EQ(run_standard("--last 1 --quiet").err, "");
+  EXPECT_EQ(run_standard("--last 1 --format obj").err, "") << "others of another format";
+}
+
+TEST_F(TrackBag, EndsWithWhereItsResultIs) {
+  write_bag(3);
+  const std::string out = folder_ / "out", bag = folder_ / "out.bag", report = folder_ / "report.jsonl";
+  const auto last_line = [](const std::string& text) { return text.substr(text.rfind('\n', text.size() - 2) + 1); };
+  EXPECT_EQ(last_line(run_standard().out), "written: " + out + "\n");
+  EXPECT_EQ(last_line(run_standard("--format none --out-bag @/out.bag --report @/report.jsonl").out),
+            "written: " + bag + ", " + report + "\n");
+  EXPECT_EQ(run_standard("--check --quiet").out, "");
 }
 
 TEST_F(TrackBag, ThreadsDoNotChangeTheMeshes) {

@@ -67,6 +67,13 @@ class ExportMeshes(ScriptTest):
             np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("color")), np.round(255 * COLORS).astype(np.uint8))
             np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("texcoord")), TEXCOORDS)
 
+    def test_vtp_is_xml_throughout(self):
+        self.export("--format", "vtp")
+        for path in self.out.glob("*.vtp"):
+            elements = {element.tag for element in xml.parse(path).iter()}
+            self.assertIn("DataArray", elements)
+            self.assertNotIn("AppendedData", elements)
+
     def test_the_time_series_has_the_stamps(self):
         self.export("--format", "vtp", "--first", "1", "--last", "2")
         sets = list(xml.parse(self.out / "frames.pvd").getroot().iter("DataSet"))

@@ -314,6 +314,30 @@ class Matching(Case):
         self.write({"position": lattice() + 100 * step * random.random(3)} for step in range(3))
         self.refused(self.folder, "--match-nearest", "--spacing", "0.001", parts=["1.npz", "not found again"])
 
+    def test_a_spacing_that_is_not_theirs_is_warned_of(self):
+        self.write({"position": lattice() + [0.01 * step, 0, 0]} for step in range(3))
+        for spacing in ("0.03", "0.3"):
+            output, errors = self.convert(self.folder, "--match-nearest", "--spacing", spacing)
+            self.assert_one_line(errors, "warning", f"--spacing is {spacing} m", "0.1 m")
+            self.assertIn(f"spacing r = {spacing} m, as given", output)
+        _, errors = self.convert(self.folder, "--match-nearest", "--spacing", "0.12", "--quiet")
+        self.assertEqual(errors, "")
+
+    def test_the_spacing_for_the_next_command_is_said(self):
+        self.write({"position": lattice() + [0.01 * step, 0, 0]} for step in range(3))
+        output, errors = self.convert(self.folder, "--match-nearest")
+        self.assertIn("spacing r = 0.1 m, estimated from the first frame", output)
+        self.assertEqual(errors, "")
+
+    def test_more_unmatched_particles_than_detail_stands_are_warned_of(self):
+        body = lattice()
+        self.write({"position": body[5 * step:] + [0.01 * step, 0, 0]} for step in range(3))
+        _, errors = self.convert(self.folder, "--match-nearest")
+        self.assertEqual(errors, "")
+        self.write({"position": body[20 * step:] + [0.01 * step, 0, 0]} for step in range(3))
+        _, errors = self.convert(self.folder, "--match-nearest", "--quiet")
+        self.assert_one_line(errors, "warning", "unmatched", "above about 1 %", "detail")
+
     def test_one_particle_has_no_spacing(self):
         self.write({"position": np.full((1, 3), 0.001 * step)} for step in range(2))
         self.refused(self.folder, "--match-nearest", parts=["0.npz", "--spacing"])

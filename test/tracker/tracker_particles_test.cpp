@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/tracker/tracker.h"
 #include "support/parameters.h"
 #include "tracker_cases.h"
@@ -56,6 +59,54 @@ TEST(TrackerParticles, WithOtherIdsTheMeshIsNotAdvectedAndTheReportSaysSo) {
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0], HasSubstr("not advected"));
   EXPECT_EQ(report.flagged_vertices, 0u);
+}
+
+TEST(TrackerParticles, IdsThatArePlacesInASortedArrayAreWarnedOf) {
+  const auto frame_with_reversed = [](double share) {
+    ParticleFrame frame = test::ball_of_particles();
+    const auto count = static_cast<std::ptrdiff_t>(share * static_cast<double>(frame.size()));
+    std::reverse(frame.positions.begin(), frame.positions.begin() + count);
+    return frame;
+  };
+  Parameters parameters = test::parameters_with_spacing(r);
+  parameters.max_displacement = 3.0;
+  Tracker tracker(parameters);
+  tracker.start(test::rippled_ball(), test::ball_of_particles());
+  const FrameReport sorted = tracker.advance(frame_with_reversed(1.0), 1);
+  ASSERT_FALSE(sorted.warnings.empty());
+  EXPECT_THAT(sorted.warnings[0], HasSubstr("% of the particles vanished, and as many appeared"));
+  EXPECT_THAT(sorted.warnings[0], HasSubstr("ids"));
+
+  tracker.start(test::rippled_ball(), test::ball_of_particles());
+  const FrameReport few = tracker.advance(frame_with_reversed(0.2), 1);
+  EXPECT_GT(few.particles_born, 100u);
+  EXPECT_TRUE(few.warnings.empty()) << few.warnings[0];
+}
+
+TEST(TrackerParticles, LiquidThatComesOrGoesIsNotWarnedOf) {
+  Tracker tracker(test::parameters_with_spacing(r));
+  const ParticleFrame all = test::ball_of_particles();
+  ParticleFrame half;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all.positions[i].x() > 0) continue;
+    half.positions.push_back(all.positions[i]);
+    half.ids.push_back(all.ids[i]);
+  }
+  tracker.start_from_particles(all);
+  EXPECT_TRUE(tracker.advance(half, 1).warnings.empty());
+  EXPECT_TRUE(tracker.advance(all, 2).warnings.empty());
+}
+
+TEST(TrackerParticles, ASpacingThatIsNotTheirsIsRefusedBeforeASurfaceIsMade) {
+  for (const double spacing : {r / 1000, r / 5, 5 * r, 1000 * r}) {
+    Tracker tracker(test::parameters_with_spacing(spacing));
+    EXPECT_THAT([&] { tracker.start_from_particles(test::ball_of_particles()); },
+                testing::ThrowsMessage<TrackingError>(HasSubstr("the particle spacing is given as")))
+        << spacing;
+    EXPECT_FALSE(tracker.started());
+  }
+  Tracker tracker(test::parameters_with_spacing(r));
+  EXPECT_NO_THROW(tracker.start_from_particles(test::ball_of_particles()));
 }
 
 TEST(TrackerParticles, FollowsASingleParticle) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "particle_surface_tracker/core/triangle_mesh.h"
@@ -25,10 +27,17 @@ class MeshSequence {
   /// \throw OutputError as write_ply(), write_obj(), write_vtp() and write_glb().
   void write(const TriangleMesh& mesh, std::uint64_t frame, std::int64_t stamp_ns);
 
+  const std::string& folder() const { return folder_; }
+
+  /// How many files of frames there are in the folder, of this format, that this sequence has not written: what reads
+  /// the folder takes them for its own.
+  std::size_t count_of_others() const;
+
  private:
   std::string folder_;
   MeshFormat format_;
   std::optional<TimeSeries> series_;
+  std::set<std::string> written_;
 };
 
 }  // namespace particle_surface_tracker

@@ -38,7 +38,7 @@ class Tracker {
 
   /// Begins with the implicit surface of `frame` itself as the mesh.
   /// \throw ParticleError if the frame is empty.
-  /// \throw TrackingError if the particles have no surface at this spacing.
+  /// \throw TrackingError if the spacing is not theirs (check_spacing_fits_particles()), or they have no surface at it.
   FrameReport start_from_particles(const ParticleFrame& frame, std::uint64_t frame_index = 0);
 
   bool started() const;
@@ -90,9 +90,15 @@ class Tracker {
   std::unique_ptr<State> state_;
 };
 
+/// Checks that a spacing is that of these particles. A single one has none.
+/// \throw TrackingError, with both, if it is more than three times the median distance from a particle to the nearest
+/// other one, or less than a third of it.
+void check_spacing_fits_particles(const ParticleFrame& frame, double particle_spacing);
+
 /// Checks that a mesh bounds the liquid of these particles.
-/// \throw TrackingError, with the figures, if more than 5 % of the particles lie outside the mesh by more than r, or
-/// the median distance from the vertices to the nearest particle is above 3 r (wrong scale, axes or offset).
+/// \throw TrackingError as check_spacing_fits_particles(), and, with the figures, if more than 5 % of the particles lie
+/// outside the mesh by more than r, or the median distance from the vertices to the nearest particle is above 3 r
+/// (wrong scale, axes or offset).
 void check_mesh_fits_particles(const TriangleMesh& mesh, const ParticleFrame& frame, double particle_spacing);
 
 }  // namespace particle_surface_tracker
