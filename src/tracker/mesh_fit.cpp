@@ -19,6 +19,8 @@ namespace {
 constexpr double kLargestOutsideShare = 0.05;
 constexpr double kLargestMedianDistance = 3.0;  // [r]
 constexpr double kLargestSpacingRatio = 3.0;
+/// So few particles may be far from each other whatever their spacing: the first drops of an emitter, for instance.
+constexpr std::size_t kFewestForSpacing = 10;
 
 /// Median over the vertices of the distance to the nearest particle [m].
 double median_particle_distance(const TriangleMesh& mesh, const ParticleFrame& frame, double r) {
@@ -79,7 +81,7 @@ double share_outside(const TriangleMesh& mesh, const ParticleFrame& frame, doubl
 
 void check_spacing_fits_particles(const ParticleFrame& frame, double particle_spacing) {
   const double r = particle_spacing;
-  if (frame.size() < 2) return;
+  if (frame.size() < kFewestForSpacing) return;
   const double estimated = estimate_particle_spacing(frame);
   if (r <= kLargestSpacingRatio * estimated && estimated <= kLargestSpacingRatio * r) return;
   throw TrackingError(

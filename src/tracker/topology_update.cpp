@@ -114,10 +114,11 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   const IsosurfaceQuery isosurface(surface, h, band.cells());
   timer.begin("topology_matching");
   ComponentDisagreement pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
-  std::vector<Vec3f> uncovered;
+  std::vector<Vec3f> missed, uncovered;
   std::optional<MeshLattice> lattice;
   std::optional<MeshQuery> before;
   MatchedVoxelization matched;
+  bool mesh_was_remeshed = false;
   for (int pass = 0; pass < kMostPasses; ++pass) {
     timer.begin("voxelization");
     lattice.emplace(mesh.positions(), mesh.triangles(), h);
@@ -128,8 +129,8 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
       const Disagreement disagreement = find_disagreement(*before, mesh.delta(), isosurface, parameters);
       report.topology.disagreeing_nodes = disagreement.nodes.size();
       flagged = united(united(flagged, detection.flagged_cells), disagreement.flagged_cells);
-      uncovered = find_uncovered_particles(particles, *before, {}, mesh, kCover * r, parameters);
-      uncovered = near_missing_liquid(uncovered, *before, {}, isosurface, parameters);
+      missed = find_uncovered_particles(particles, *before, {}, mesh, kCover * r, parameters);
+      uncovered = near_missing_liquid(missed, *before, {}, isosurface, parameters);
     }
     // Where matching alone has not helped, detail gives way.
     if (pass > 0) pieces.scrap_cells = flagged;
@@ -155,6 +156,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     describe(remeshed, report);
     if (record != nullptr) record->add(cells);
     if (!remeshed.changed()) break;
+    mesh_was_remeshed = true;
     // What was cut may have left scraps that the liquid does not have.
     timer.begin("topology_matching");
     pieces = find_component_disagreement(mesh, original_vertices, isosurface, parameters);
@@ -186,7 +188,8 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   report.upkeep.untangled = relaxed.untangled;
   report.upkeep.refused = kept.refused;
   fresh.kept_up = ids_of(mesh, kept.fresh);
-  const std::vector<Vec3f> missed = find_uncovered_particles(particles, *before, matched, mesh, r, parameters);
+  // Upkeep alone moves the surface too little to lose a particle that was well inside.
+  if (mesh_was_remeshed) missed = find_uncovered_particles(particles, *before, matched, mesh, r, parameters);
   fresh.remeshed = ids_of(mesh, cover_particles(mesh, original_vertices, near_isosurface(missed, band, r), r));
 
   return measure_fresh_delta(mesh, fresh_vertices(mesh, fresh), band, parameters, report);

@@ -109,6 +109,17 @@ TEST(TrackerParticles, ASpacingThatIsNotTheirsIsRefusedBeforeASurfaceIsMade) {
   EXPECT_NO_THROW(tracker.start_from_particles(test::ball_of_particles()));
 }
 
+TEST(TrackerParticles, AFewDropsFarApartHaveNoSpacing) {
+  std::vector<Vec3f> positions;
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t drop = 0; drop < 9; ++drop) {
+    positions.emplace_back(static_cast<float>(20.0 * r * drop), 0.0F, 0.0F);
+    ids.push_back(drop);
+  }
+  Tracker tracker(test::parameters_with_spacing(r));
+  EXPECT_EQ(tracker.start_from_particles(make_particle_frame(0, positions, ids)).components, 9U);
+}
+
 TEST(TrackerParticles, FollowsASingleParticle) {
   const auto at = [](float x) { return make_particle_frame(0, {{x, 0, 0}}, {7}); };
   Tracker tracker(test::parameters_with_spacing(r));

@@ -90,7 +90,7 @@ class Tracker {
   std::unique_ptr<State> state_;
 };
 
-/// Checks that a spacing is that of these particles. A single one has none.
+/// Checks that a spacing is that of these particles. Fewer than ten have none.
 /// \throw TrackingError, with both, if it is more than three times the median distance from a particle to the nearest
 /// other one, or less than a third of it.
 void check_spacing_fits_particles(const ParticleFrame& frame, double particle_spacing);
