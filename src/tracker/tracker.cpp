@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "band.h"
+#include "frame_description.h"
 #include "implicit_surface_stages.h"
 #include "long_step.h"
 #include "particle_surface_tracker/core/error.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 #include "particle_surface_tracker/stages/advection.h"
 #include "particle_surface_tracker/stages/component_disagreement.h"
@@ -23,10 +23,6 @@ namespace {
 
 /// Farthest that the isosurface is searched for when δ is measured: details of a first mesh may hold no particle [r].
 constexpr double kInitialReach = 64.0;
-
-/// Largest share of the particles that may be replaced by others in a frame, before their ids are in doubt.
-constexpr double kLargestReplacedShare = 0.3;
-constexpr std::size_t kFewestReplaced = 100;
 
 /// The last frame; replaced as a whole once nothing can fail any more.
 struct Tracked : TrackedFrame {
@@ -49,29 +45,6 @@ double largest_distance(const TriangleMesh& mesh, const Projection& projection, 
   return largest;
 }
 
-void describe(FrameReport& report, const Tracked& tracked, const ParticleFrame& frame, StageTimer& timer) {
-  timer.begin("measures");
-  const MeshMeasures mesh = measure_mesh(tracked.mesh.positions(), tracked.mesh.triangles());
-  report.stamp_ns = frame.stamp_ns;
-  report.particles = frame.size();
-  report.vertices = tracked.mesh.vertex_count();
-  report.triangles = tracked.mesh.triangle_count();
-  report.components = mesh.components;
-  report.genus = mesh.genus;
-  report.volume = mesh.volume;
-  report.area = mesh.area;
-  if (tracked.surface != nullptr && !frame.empty()) {
-    const SurfaceTriangulation& surface = tracked.surface->triangulation;
-    report.implicit_volume = measure_mesh(surface.vertices, surface.triangles).volume;
-  }
-  for (const float delta : tracked.mesh.delta()) {
-    report.max_abs_delta = std::max(report.max_abs_delta, std::abs(static_cast<double>(delta)));
-  }
-  const auto& ids = tracked.mesh.ids();
-  report.original_vertices_alive = static_cast<std::size_t>(
-      std::count_if(ids.begin(), ids.end(), [&](std::uint32_t id) { return id < tracked.original_vertices; }));
-}
-
 /// The vertices with some ids, as far as they are alive. Ids increase with the vertex.
 std::vector<std::uint32_t> vertices_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids) {
   std::vector<std::uint32_t> vertices;
@@ -81,17 +54,6 @@ std::vector<std::uint32_t> vertices_of(const TriangleMesh& mesh, const std::vect
     vertices.push_back(static_cast<std::uint32_t>(found - mesh.ids().begin()));
   }
   return vertices;
-}
-
-/// Ids that are not those of particles show as particles that vanish and appear, all over the liquid.
-void warn_of_untrue_ids(FrameReport& report, std::size_t particles) {
-  const std::size_t replaced = std::min(report.particles_gone, report.particles_born);
-  const double share = static_cast<double>(replaced) / static_cast<double>(particles);
-  if (replaced < kFewestReplaced || share <= kLargestReplacedShare) return;
-  report.warnings.push_back(
-      fmt::format("{:.0f} % of the particles vanished, and as many appeared, by their ids: are these true ids, "
-                  "and not places in an array that the simulator sorts or fills anew?",
-                  100.0 * share));
 }
 
 void require_particles(const ParticleFrame& frame) {
@@ -154,7 +116,8 @@ struct Tracker::State {
     note_birth(next->mesh);
     note_bridges(next->mesh, IsosurfaceQuery(*next->surface, parameters.dx_gamma * r()));
     next->band = largest_distance(next->mesh, measured, next->detection);
-    describe(report, *next, frame, timer);
+    timer.begin("measures");
+    describe_frame(report, *next, next->surface.get(), frame);
     timer.finish();
     tracked = std::move(next);
   }
@@ -297,7 +260,8 @@ FrameReport Tracker::advance(const ParticleFrame& frame, std::uint64_t frame_ind
     next->particles = frame;
     next->particles_frame = frame_index;
   }
-  describe(report, *next, frame, timer);
+  timer.begin("measures");
+  describe_frame(report, *next, next->surface.get(), frame);
   timer.finish();
   state_->tracked = std::move(next);
   return report;
