@@ -71,7 +71,7 @@ std::vector<Number> array_in(const std::string& content, const std::string& name
   std::memcpy(&size, bytes.data(), sizeof(size));
   EXPECT_EQ(bytes.size(), sizeof(size) + size) << name;
   std::vector<Number> values(size / sizeof(Number));
-  std::memcpy(values.data(), bytes.data() + sizeof(size), size);
+  if (!values.empty()) std::memcpy(values.data(), bytes.data() + sizeof(size), size);
   return values;
 }
 
