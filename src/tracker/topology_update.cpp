@@ -16,6 +16,7 @@
 #include "particle_surface_tracker/stages/topology_matching.h"
 #include "particle_surface_tracker/stages/untangling.h"
 #include "stages/matching/field_at_nodes.h"
+#include "vertex_ids.h"
 
 namespace particle_surface_tracker {
 
@@ -66,13 +67,6 @@ struct FreshIds {
   std::vector<std::uint32_t> kept_up;   ///< Increasing.
   std::vector<std::uint32_t> remeshed;  ///< Increasing: those that were moved where re-meshing had made them.
 };
-
-std::vector<std::uint32_t> ids_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices) {
-  std::vector<std::uint32_t> ids;
-  ids.reserve(vertices.size());
-  for (const std::uint32_t v : vertices) ids.push_back(mesh.ids()[v]);
-  return ids;
-}
 
 /// All vertices that are new or have moved, in order.
 std::vector<FreshVertex> fresh_vertices(const TriangleMesh& mesh, const FreshIds& ids) {
@@ -190,7 +184,11 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
   fresh.kept_up = ids_of(mesh, kept.fresh);
   // Upkeep alone moves the surface too little to lose a particle that was well inside.
   if (mesh_was_remeshed) missed = find_uncovered_particles(particles, *before, matched, mesh, r, parameters);
-  fresh.remeshed = ids_of(mesh, cover_particles(mesh, original_vertices, near_isosurface(missed, band, r), r));
+  if (!missed.empty()) {
+    const std::vector<Vec3f> near = near_isosurface(missed, band, r);
+    timer.begin("upkeep");
+    fresh.remeshed = ids_of(mesh, cover_particles(mesh, original_vertices, near, r));
+  }
 
   return measure_fresh_delta(mesh, fresh_vertices(mesh, fresh), band, parameters, report);
 }

@@ -16,6 +16,7 @@
 #include "particle_surface_tracker/stages/stretched_detail.h"
 #include "stage_timer.h"
 #include "topology_update.h"
+#include "vertex_ids.h"
 
 namespace particle_surface_tracker {
 
@@ -43,17 +44,6 @@ double largest_distance(const TriangleMesh& mesh, const Projection& projection, 
                         std::abs(static_cast<double>(projection.distances[v]))});
   }
   return largest;
-}
-
-/// The vertices with some ids, as far as they are alive. Ids increase with the vertex.
-std::vector<std::uint32_t> vertices_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids) {
-  std::vector<std::uint32_t> vertices;
-  for (const std::uint32_t id : ids) {
-    const auto found = std::lower_bound(mesh.ids().begin(), mesh.ids().end(), id);
-    if (found == mesh.ids().end() || *found != id) continue;
-    vertices.push_back(static_cast<std::uint32_t>(found - mesh.ids().begin()));
-  }
-  return vertices;
 }
 
 void require_particles(const ParticleFrame& frame) {
@@ -155,9 +145,7 @@ struct Tracker::State {
   /// Splits and merges the mesh, and keeps its triangles in shape. What was flagged and is still there stays flagged.
   void match_topology(Tracked& next, const ParticleFrame& frame, NarrowBand& band, FrameReport& report,
                       StageTimer& timer) {
-    std::vector<std::uint32_t> flagged_ids;
-    flagged_ids.reserve(next.detection.flagged_vertices.size());
-    for (const std::uint32_t v : next.detection.flagged_vertices) flagged_ids.push_back(next.mesh.ids()[v]);
+    const std::vector<std::uint32_t> flagged_ids = ids_of(next.mesh, next.detection.flagged_vertices);
     const double new_delta = update_topology(next.mesh, frame.positions, *next.surface, next.detection,
                                              static_cast<std::uint32_t>(next.original_vertices), parameters, band,
                                              upkeep_memory, report, timer, next.cells.get());

@@ -17,9 +17,7 @@ constexpr std::size_t kComponents = 5;
 constexpr float kWhollyRemeshed = 0.999F;
 
 Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
-  const auto& [a, b, c] = mesh.triangles()[triangle];
-  const auto& positions = mesh.positions();
-  return {positions[a].cast<double>(), positions[b].cast<double>(), positions[c].cast<double>()};
+  return place_corners(mesh.positions(), mesh.triangles()[triangle]);
 }
 
 /// A rounded record must not be stricter than what was measured.

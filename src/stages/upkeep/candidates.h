@@ -31,10 +31,7 @@ struct SurfaceView {
   const std::vector<Triangle>& triangles;
   const std::vector<std::uint32_t>& twins;
 
-  Corners corners(std::uint32_t triangle) const {
-    const auto& [a, b, c] = triangles[triangle];
-    return {positions[a].cast<double>(), positions[b].cast<double>(), positions[c].cast<double>()};
-  }
+  Corners corners(std::uint32_t triangle) const { return place_corners(positions, triangles[triangle]); }
   std::uint32_t shortest_edge(std::uint32_t triangle) const;
   std::uint32_t longest_edge(std::uint32_t triangle) const;
 };

@@ -24,10 +24,7 @@ class EditableSurface {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<std::uint32_t>& twins() const { return twins_; }
   const Triangle& triangle(std::uint32_t index) const { return triangles_[index]; }
-  Corners corners(std::uint32_t triangle) const {
-    const auto& [a, b, c] = triangles_[triangle];
-    return {position(a), position(b), position(c)};
-  }
+  Corners corners(std::uint32_t triangle) const { return place_corners(mesh_.positions(), triangles_[triangle]); }
   const Vec3f& stored_position(std::uint32_t vertex) const { return mesh_.positions()[vertex]; }
   Vec3d position(std::uint32_t vertex) const { return mesh_.positions()[vertex].cast<double>(); }
 

@@ -72,9 +72,7 @@ class ParticleCover {
   bool may_move(std::uint32_t vertex) const { return mesh_.ids()[vertex] >= first_new_id_; }
 
   Corners corners_of(std::uint32_t triangle) const {
-    const auto& [a, b, c] = mesh_.triangles()[triangle];
-    const auto& positions = mesh_.positions();
-    return {positions[a].cast<double>(), positions[b].cast<double>(), positions[c].cast<double>()};
+    return place_corners(mesh_.positions(), mesh_.triangles()[triangle]);
   }
 
   ClosestPlace find_closest(const Vec3d& particle) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -9,6 +10,12 @@
 namespace particle_surface_tracker {
 
 using Corners = std::array<Vec3d, 3>;
+
+/// Where the corners of a triangle are.
+inline Corners place_corners(const std::vector<Vec3f>& positions, const Triangle& triangle) {
+  return {positions[triangle[0]].cast<double>(), positions[triangle[1]].cast<double>(),
+          positions[triangle[2]].cast<double>()};
+}
 
 /// Normal of a triangle, as long as twice its area.
 inline Vec3d area_normal(const Corners& corners) {
