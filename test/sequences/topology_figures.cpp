@@ -100,9 +100,6 @@ SequenceLimits limits_for(const std::string& name) {
     limits.volume_drift = 0.02;
     limits.original_vertices = 0.49;
   }
-  if (name == "falling_objects") {
-    limits.equal_topology = 0.98;
-  }
   return limits;
 }
 

@@ -114,8 +114,10 @@ ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std:
   const std::size_t attribute = mesh.attributes().find(kAttributeName);
   const auto is_old_bridge = [&](const Triangle& t) {
     if (attribute == VertexAttributes::none) return false;
+    // New vertices inherit the attribute, which by and by would spread over the whole mesh.
     const std::vector<float>& bridge = mesh.attributes()[attribute].values;
-    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return bridge[v] > 0.0F; });
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.ids()[v] < first_new_id; }) &&
+           std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return bridge[v] > 0.0F; });
   };
   const double h = parameters.dx_gamma * parameters.particle_spacing;
   ComponentDisagreement found;

@@ -87,6 +87,17 @@ TEST(ComponentDisagreement, LeavesWhatItWasBornWithAlone) {
           .none());
 }
 
+TEST(ComponentDisagreement, WhatWasMadeAnewIsNoBridgeOfBirth) {
+  const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
+  TriangleMesh mesh = stretched_ellipsoid();
+  note_bridges(mesh, IsosurfaceQuery(surface, kH));
+  // New vertices take the attributes of the surface that was there, also that they were in a bridge.
+  constexpr std::uint32_t no_vertex_is_old = 0;
+  EXPECT_FALSE(find_component_disagreement(mesh, no_vertex_is_old, IsosurfaceQuery(surface, kH),
+                                           test::parameters_with_spacing(kSpacing))
+                   .bridge_cells.empty());
+}
+
 TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
   std::uint32_t first_new_id = 0;
   const TriangleMesh mesh = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);
