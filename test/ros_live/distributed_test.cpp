@@ -104,6 +104,25 @@ TEST_F(Distributed, AMakerThatStallsIsJoinedAgainLater) {
   expect_offline_meshes();
 }
 
+// All frames are on their way at once: both makers work on frames that the tracker has not come to.
+TEST_F(Distributed, FramesInFlightAreJoinedInOrder) {
+  const auto before = static_cast<std::ptrdiff_t>(statuses_.wait_for(0).size());
+  for (int n = 0; n < kFrames; ++n) publisher_.publish(drops_cloud(n));
+  auto statuses = statuses_.wait_for(static_cast<std::size_t>(before) + kFrames);
+  statuses.erase(statuses.begin(), statuses.begin() + before);
+  ASSERT_EQ(statuses.size(), std::size_t{kFrames});
+  for (int n = 0; n < kFrames; ++n) {
+    const TrackerStatus& status = *statuses[static_cast<std::size_t>(n)];
+    ASSERT_LE(status.state, TrackerStatus::TRACKED) << n;
+    EXPECT_EQ(status.header.stamp, drops_cloud(n)->header.stamp) << n;
+  }
+  const TrackerStatus& last = *statuses.back();
+  EXPECT_EQ(last.surfaces_joined + last.surfaces_own, last.frames_tracked);
+  // All but the first, were the machine never busy.
+  EXPECT_GE(last.surfaces_joined - statuses.front()->surfaces_joined, kFrames / 2u);
+  expect_offline_meshes();
+}
+
 }  // namespace
 }  // namespace particle_surface_tracker::test
 

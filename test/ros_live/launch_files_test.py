@@ -3,6 +3,8 @@
 described, and what a user types reaches the nodes.
 
 Usage: launch_files_test.py PROJECT
+
+PROJECT is the folder of the sources, or share/particle_surface_tracker where the package is installed.
 """
 
 import os
@@ -32,7 +34,7 @@ def load(path, *arguments):
 
 
 def required_arguments(path):
-    return ["%s:=%s" % (arg.get("name"), PROJECT / "README.md") for arg in xml.parse(path).getroot().iter("arg")
+    return ["%s:=%s" % (arg.get("name"), PROJECT / "package.xml") for arg in xml.parse(path).getroot().iter("arg")
             if arg.get("doc") and arg.get("default") is None and arg.get("value") is None]
 
 

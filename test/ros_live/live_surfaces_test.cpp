@@ -64,6 +64,31 @@ TEST_F(LiveSurfaces, AreJoinedAndGiveTheSameBytes) {
   EXPECT_EQ(first, second);
 }
 
+// All frames are on their way at once: surfaces are made while frames before them are tracked.
+TEST_F(LiveSurfaces, OfFramesInFlightAreJoinedInOrder) {
+  const auto node = load_joining();
+  Collector<TrackedMesh> meshes(node->name() + "/mesh");
+  Collector<ParticleSurface> surfaces(kTopic);
+  ASSERT_TRUE(meshes.wait_for_publisher());
+  ASSERT_NO_FATAL_FAILURE(load_maker(*node));
+  ASSERT_TRUE(surfaces.wait_for_publisher());
+  for (int n = 0; n < kFrames; ++n) node->send(n);
+  const auto statuses = node->statuses().wait_for(kFrames);
+  ASSERT_EQ(statuses.size(), std::size_t{kFrames});
+  const auto received = meshes.wait_for(kFrames);
+  ASSERT_EQ(received.size(), std::size_t{kFrames});
+  FrameHandler offline = handler();
+  for (int n = 0; n < kFrames; ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    offline.handle(*ball_cloud(n), static_cast<std::uint64_t>(n));
+    EXPECT_EQ(received[at]->header.stamp, ball_cloud(n)->header.stamp) << n;
+    EXPECT_EQ(bytes_of(*received[at]), bytes_of(offline.message())) << n;
+    EXPECT_EQ(statuses[at]->frame, static_cast<std::uint64_t>(n));
+  }
+  EXPECT_EQ(statuses.back()->surfaces_joined, kFrames - 1u);
+  EXPECT_EQ(statuses.back()->surfaces_own, 1u);
+}
+
 TEST_F(LiveSurfaces, OfOtherParametersAreNotTaken) {
   const auto node = load_joining();
   Collector<TrackedMesh> meshes(node->name() + "/mesh");

@@ -9,6 +9,7 @@
 
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "ros_live/live_node.h"
+#include "ros_live/node_process.h"
 
 namespace particle_surface_tracker::test {
 namespace {
@@ -18,7 +19,10 @@ class RunningNodesTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     publisher = ros::NodeHandle().advertise<sensor_msgs::PointCloud2>("particles", 100);
-    ASSERT_TRUE(wait_until([] { return publisher.getNumSubscribers() == 2; })) << publisher.getNumSubscribers();
+    // Those in the manager share a connection; the maker of surfaces is there when they reach who takes them.
+    ASSERT_TRUE(wait_until([] {
+      return publisher.getNumSubscribers() == 2 && connection_count("/manager", "/surfaces") == 1;
+    })) << publisher.getNumSubscribers();
   }
   static void TearDownTestSuite() { publisher.shutdown(); }
 
@@ -27,9 +31,11 @@ class RunningNodesTest : public testing::Test {
 
 ros::Publisher RunningNodesTest::publisher;
 
-FrameHandler offline_handler(AdvectionMethod advection) {
+/// \param spacing 0: it is estimated.
+FrameHandler offline_handler(AdvectionMethod advection, double spacing = 0.0) {
   FrameHandlerOptions options;
-  options.estimate_spacing = true;
+  options.estimate_spacing = spacing == 0.0;
+  if (spacing > 0.0) options.parameters.particle_spacing = spacing;
   options.parameters.advection = advection;
   return FrameHandler(options);
 }
@@ -38,7 +44,11 @@ TEST_F(RunningNodesTest, TrackEveryFrameAsTheFrameHandlerDoes) {
   Collector<TrackedMesh> one("/one/mesh");
   Collector<TrackedMesh> two("/two/mesh");
   Collector<TrackedMesh> alone("/alone/mesh");
+  Collector<TrackedMesh> joining("/joining/mesh");
   Collector<TrackerStatus> statuses("/two/status");
+  Collector<TrackerStatus> joining_statuses("/joining/status");
+  ASSERT_TRUE(joining.wait_for_publisher());
+  ASSERT_TRUE(joining_statuses.wait_for_publisher());
   ASSERT_TRUE(one.wait_for_publisher());
   ASSERT_TRUE(two.wait_for_publisher());
   ASSERT_TRUE(alone.wait_for_publisher());
@@ -47,18 +57,24 @@ TEST_F(RunningNodesTest, TrackEveryFrameAsTheFrameHandlerDoes) {
   ASSERT_EQ(one.wait_for(5).size(), 5u);
   ASSERT_EQ(two.wait_for(5).size(), 5u);
   ASSERT_EQ(alone.wait_for(5).size(), 5u);
+  ASSERT_EQ(joining.wait_for(5).size(), 5u);
   ASSERT_EQ(statuses.wait_for(5).size(), 5u);
+  ASSERT_EQ(joining_statuses.wait_for(5).size(), 5u);
   FrameHandler affine = offline_handler(AdvectionMethod::kAffine);
   FrameHandler average = offline_handler(AdvectionMethod::kAverage);
+  FrameHandler given = offline_handler(AdvectionMethod::kAffine, kBallSpacing);
   for (int n = 0; n < 5; ++n) {
     affine.handle(*ball_cloud(n), static_cast<std::uint64_t>(n));
     average.handle(*ball_cloud(n), static_cast<std::uint64_t>(n));
+    given.handle(*ball_cloud(n), static_cast<std::uint64_t>(n));
     const auto at = static_cast<std::size_t>(n);
     EXPECT_EQ(bytes_of(*one.wait_for(5)[at]), bytes_of(affine.message())) << n;
     EXPECT_EQ(bytes_of(*two.wait_for(5)[at]), bytes_of(average.message())) << n;
     EXPECT_EQ(bytes_of(*alone.wait_for(5)[at]), bytes_of(affine.message({true, false}))) << n;
+    EXPECT_EQ(bytes_of(*joining.wait_for(5)[at]), bytes_of(given.message())) << n;
     EXPECT_EQ(statuses.wait_for(5)[at]->state, n == 0 ? TrackerStatus::STARTED : TrackerStatus::TRACKED);
   }
+  EXPECT_EQ(joining_statuses.wait_for(5).back()->surfaces_joined, 4u);  // The first frame has none.
 }
 
 TEST_F(RunningNodesTest, LateSubscribersOfOtherProcessesGetTheLastMesh) {
