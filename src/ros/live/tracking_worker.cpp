@@ -109,6 +109,8 @@ void TrackingWorker::run() {
       process(*frame);
     } else if (!queue_.closed()) {
       outputs_.publish_due_markers();
+  // Whoever goes by what waits learns what became of the rest.
+  if (frame.is_ahead) publish_waiting();
     }
   }
   keeper_.finish([this] { return state(); });
@@ -248,7 +250,8 @@ void TrackingWorker::publish_waiting() {
 }
 
 void TrackingWorker::publish(const ReceivedFrame& frame, TrackerStatus status) {
-  last_header_ = frame.header;
+  // A player that is paced by WAITING is to stay where those are that wait.
+  if (!frame.is_ahead) last_header_ = frame.header;
   status.header = frame.header;
   status.queue_length = static_cast<std::uint32_t>(queue_.size());
   status.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - frame.arrival).count();
