@@ -39,7 +39,7 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
                     : std::make_unique<SurfaceTopics>(handle, options.surfaces, options.queue_size, name_)),
       worker_(options, outputs_, diagnostics_, surfaces_.get(), name_),
       parameter_server_(private_handle, options.handler.parameters, options.parameter_record,
-                        [this](const Parameters& parameters) { worker_.set_parameters(parameters, [] {}); }) {
+                        [this](const Parameters& parameters) { worker_.set_parameters(parameters); }) {
   for (const std::string& note : options.notes) ROS_INFO_STREAM(name_ << ": " << note);
   for (const std::string& warning : options.warnings) ROS_WARN_STREAM(name_ << ": " << warning);
   reset_service_ = private_handle.advertiseService("reset", &TrackerNode::reset, this);
