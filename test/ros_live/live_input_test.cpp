@@ -142,7 +142,8 @@ TEST_F(LiveInput, WhatMayComeWithEveryFrameIsSaidNowAndThenAndCounted) {
   const auto node = load();
   const auto bad = [](PointCloud2& cloud) { cloud.data.clear(); };
   node->answer(0);
-  for (int n = 1; n < 5; ++n) node->answer(changed(n, bad));
+  for (int n = 1; n < 5; ++n) node->send(changed(n, bad));
+  ASSERT_EQ(node->statuses().wait_for(5).size(), 5u);
   const std::string words = node->name() + ": cannot use the frame";
   // Of another kind, which has its own five seconds.
   node->answer(0);
