@@ -114,13 +114,38 @@ TEST(FrameQueue, HeldFramesWaitAndCommandsRun) {
   for (std::uint32_t n = 1; n < 4; ++n) queue.push(frame(n));
   int runs = 0;
   queue.push(FrameQueue::Command([&runs] { ++runs; }));
-  // What comes before all that waits is answered.
-  EXPECT_EQ(receptions(queue), std::vector<Reception>{Reception::kInvalid});
+  // What is lost is answered at once, also from behind what waits.
+  const std::vector<Reception> lost = {Reception::kInvalid, Reception::kDropped};
+  EXPECT_EQ(receptions(queue), lost);
   EXPECT_EQ(runs, 1);
   EXPECT_EQ(queue.size(), 2u);
   queue.hold(false);
-  const std::vector<Reception> wanted = {Reception::kUsable, Reception::kUsable, Reception::kDropped};
+  const std::vector<Reception> wanted = {Reception::kUsable, Reception::kUsable};
   EXPECT_EQ(receptions(queue), wanted);
+}
+
+TEST(FrameQueue, WhatGoesAheadKnowsItsPlace) {
+  FrameQueue queue(2, QueuePolicy::kAll);
+  queue.push(frame(0, Reception::kInvalid));
+  queue.push(frame(1));
+  queue.push(frame(2, Reception::kInvalid));
+  queue.hold(true);
+  for (std::uint32_t n = 3; n < 5; ++n) queue.push(frame(n));
+  for (const std::uint32_t n : {0u, 2u, 4u}) {
+    const auto received = queue.pop(now());
+    ASSERT_TRUE(received);
+    EXPECT_EQ(received->header.seq, n);
+    EXPECT_EQ(received->number, n + 1);
+    EXPECT_EQ(received->is_ahead, n > 0) << n;
+  }
+  EXPECT_FALSE(queue.pop(now()));
+  queue.hold(false);
+  for (const std::uint32_t n : {1u, 3u}) {
+    const auto received = queue.pop(now());
+    ASSERT_TRUE(received);
+    EXPECT_EQ(received->number, n + 1);
+    EXPECT_FALSE(received->is_ahead);
+  }
 }
 
 TEST(FrameQueue, StrictDropsWhatArrivesWhenItIsFull) {

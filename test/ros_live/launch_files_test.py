@@ -96,6 +96,14 @@ class LaunchFiles(unittest.TestCase):
         self.assertIn(["particles", "/flow/particles"], remappings)
         self.assertIn(["initial_mesh", "/flow/mesh"], remappings)
 
+    def test_nothing_of_an_earlier_start_reaches_a_node(self):
+        types = {"tracker_node", "implicit_surface_node"}
+        for path in FILES:
+            config = load(path, *required_arguments(path))
+            for node in config.nodes:
+                if node.type in types or "Nodelet" in node.args:
+                    self.assertIn(node.namespace + node.name + "/", config.clear_params, path.name)
+
     def test_a_manager_can_be_shared(self):
         config = load(PROJECT / "launch/live.launch", "manager:=simulation_manager", "rviz:=false")
         self.assertEqual([node.name for node in config.nodes], ["tracker"])

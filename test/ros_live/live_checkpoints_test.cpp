@@ -1,14 +1,17 @@
 // Checkpoints of the live node: by service, by itself, and when it comes up.
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <particle_surface_tracker/CheckpointFile.h>
+#include <rosgraph_msgs/Log.h>
 
 #include "particle_surface_tracker/io/checkpoint.h"
 #include "ros/ros_test_support.h"
 #include "ros_live/live_node_test.h"
+#include "ros_live/reconfigure.h"
 
 namespace particle_surface_tracker::test {
 namespace {
@@ -131,11 +134,15 @@ TEST_F(LiveCheckpoints, WhatIsRefusedChangesNothing) {
   write_checkpoint(folder_ / "bag.checkpoint", checkpoint);
   checkpoint.sections["node"] = "too short";
   write_checkpoint(folder_ / "section.checkpoint", checkpoint);
+  checkpoint = read_checkpoint(folder_ / "good.checkpoint");
+  checkpoint.sections["configured"] += "more";
+  write_checkpoint(folder_ / "configured.checkpoint", checkpoint);
   const std::pair<const char*, const char*> refused[] = {{"cut.checkpoint", "damaged"},
                                                          {"flipped.checkpoint", "checksum"},
                                                          {"foreign.checkpoint", "no checkpoint"},
                                                          {"bag.checkpoint", "track_bag"},
                                                          {"section.checkpoint", "place in the input"},
+                                                         {"configured.checkpoint", "configured parameters is damaged"},
                                                          {"none.checkpoint", "No such file"},
                                                          {"../good.checkpoint", "not below"},
                                                          {"mesh.ply", ".checkpoint"},
@@ -154,6 +161,59 @@ TEST_F(LiveCheckpoints, WhatIsRefusedChangesNothing) {
   const CheckpointFile::Response answer = call(*other, "load_checkpoint", "good.checkpoint");
   EXPECT_FALSE(answer.success);
   EXPECT_NE(answer.message.find("dx_phi is 0.5 there and 0.6 here"), std::string::npos) << answer.message;
+}
+
+TEST_F(LiveCheckpoints, AValueThatWaitsForAResetLosesNoRun) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  ASSERT_TRUE(log.wait_for_publisher());
+  const auto node = load_drops();
+  send(*node, 3);
+  EXPECT_EQ(value_of<double>(Reconfigure(node->name()).set("dx_phi", 0.75), "dx_phi"), 0.75);
+  ASSERT_TRUE(call(*node, "save_checkpoint", "run.checkpoint").success);
+  const CheckpointFile::Response loaded = call(*node, "load_checkpoint", "run.checkpoint");
+  ASSERT_TRUE(loaded.success) << loaded.message;
+  EXPECT_TRUE(wait_until([&] {
+    const auto lines = log.wait_for(0);
+    return std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+      return line->level == rosgraph_msgs::Log::WARN &&
+             line->msg.find(node->name() + ": goes on with the values of the checkpoint") == 0 &&
+             line->msg.find("dx_phi 0.5 -> 0.75") != std::string::npos;
+    });
+  }));
+  expect_goes_on(*node, 3);
+  // It waits still.
+  Collector<TrackedMesh> meshes(node->name() + "/mesh");
+  ASSERT_TRUE(meshes.wait_for_publisher());
+  call_reset(*node);
+  const std::size_t before = meshes.wait_for(1).size();
+  EXPECT_EQ(node->answer(drops_cloud(0)).state, State::STARTED);
+  const auto received = meshes.wait_for(before + 1);
+  ASSERT_EQ(received.size(), before + 1);
+  EXPECT_NE(received.back()->vertices.size(), uninterrupted()[0].vertices.size());
+}
+
+TEST_F(LiveCheckpoints, ARunWithReconfiguredValuesGoesOnInANodeThatIsConfiguredAlike) {
+  const auto one = load_drops();
+  Reconfigure(one->name()).set("dx_phi", 0.75);
+  send(*one, 3);
+  ASSERT_TRUE(call(*one, "save_checkpoint", "run.checkpoint").success);
+  const auto two = load_drops();
+  const CheckpointFile::Response loaded = call(*two, "load_checkpoint", "run.checkpoint");
+  ASSERT_TRUE(loaded.success) << loaded.message;
+  Collector<TrackedMesh> meshes_of_one(one->name() + "/mesh");
+  Collector<TrackedMesh> meshes_of_two(two->name() + "/mesh");
+  ASSERT_EQ(meshes_of_one.wait_for(1).size(), 1u);
+  ASSERT_EQ(meshes_of_two.wait_for(1).size(), 1u);
+  one->answer(drops_cloud(3));
+  two->answer(drops_cloud(3));
+  ASSERT_EQ(meshes_of_one.wait_for(2).size(), 2u);
+  ASSERT_EQ(meshes_of_two.wait_for(2).size(), 2u);
+  EXPECT_EQ(bytes_of(*meshes_of_one.wait_for(2)[1]), bytes_of(*meshes_of_two.wait_for(2)[1]));
+  // Whoever has configured something else is told.
+  const auto three = load_drops({{"dx_phi", "0.6"}});
+  const CheckpointFile::Response refused = call(*three, "load_checkpoint", "run.checkpoint");
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("dx_phi is 0.75 there and 0.6 here"), std::string::npos) << refused.message;
 }
 
 TEST_F(LiveCheckpoints, ANodeGoesOnWhenItComesUp) {

@@ -8,6 +8,7 @@
 #include <std_srvs/SetBool.h>
 
 #include "ros_live/live_node_test.h"
+#include "ros_live/reconfigure.h"
 
 namespace particle_surface_tracker::test {
 namespace {
@@ -79,6 +80,41 @@ TEST_F(LiveDiagnostics, TimeIsSaidPerStage) {
   }));
   EXPECT_GT(std::stod(value("time of a frame [s]")), 0.0);
   EXPECT_GT(std::stod(value("longest latency [s]")), 0.0);
+}
+
+TEST_F(LiveDiagnostics, SayWhatWaitsForAReset) {
+  const auto node = load_quick();
+  Reconfigure reconfigure(node->name());
+  const auto waits = [&](const std::string& words) {
+    return wait_until(
+        [&] { return comes(*node, "tracking", DiagnosticStatus::OK) && value("waits for reset") == words; });
+  };
+  // Before there is a mesh nothing has to wait.
+  reconfigure.set("dx_gamma", 0.6);
+  node->answer(0);
+  EXPECT_TRUE(waits("nothing"));
+  reconfigure.set("dx_phi", 0.75);
+  reconfigure.set("tau", 0.6);
+  EXPECT_TRUE(waits("dx_phi 0.5 -> 0.75"));
+  reconfigure.set("dx_gamma", 0.5);
+  EXPECT_TRUE(waits("dx_phi 0.5 -> 0.75, dx_gamma 0.6 -> 0.5"));
+  call_reset(*node);
+  EXPECT_TRUE(waits("nothing"));
+  EXPECT_EQ(node->answer(1).state, TrackerStatus::STARTED);
+  EXPECT_TRUE(waits("nothing"));
+}
+
+TEST_F(LiveDiagnostics, CountWhatIsDroppedDuringAPause) {
+  const auto node = load_quick({{"queue_size", "2"}});
+  node->answer(0);
+  std_srvs::SetBool pause;
+  pause.request.data = 1;
+  ASSERT_TRUE(ros::service::call(node->name() + "/pause", pause));
+  ASSERT_TRUE(comes(*node, "tracking", DiagnosticStatus::WARN, "paused"));
+  for (int n = 1; n < 8; ++n) node->send(n);
+  // They may be spread over several intervals; the count is that of all.
+  EXPECT_TRUE(wait_until(
+      [&] { return comes(*node, "input", DiagnosticStatus::WARN, "dropped") && value("frames dropped") == "5"; }));
 }
 
 TEST_F(LiveDiagnostics, WarnOfWhatIsLost) {

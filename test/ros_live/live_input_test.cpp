@@ -116,6 +116,47 @@ TEST_F(LiveInput, LoopedInputStartsAgainWithItsMesh) {
   EXPECT_LT(received[3]->topology_version, received[4]->topology_version);
 }
 
+std::vector<std::string> lines_of(Collector<rosgraph_msgs::Log>& log, const std::string& words) {
+  std::vector<std::string> lines;
+  for (const auto& line : log.wait_for(0)) {
+    if (line->msg.find(words) != std::string::npos) lines.push_back(line->msg);
+  }
+  return lines;
+}
+
+TEST_F(LiveInput, AClockThatGoesBackIsSaidOnce) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  ASSERT_TRUE(log.wait_for_publisher());
+  const auto node = load();
+  for (const int n : {5, 6, 7, 0, 1, 2, 3}) EXPECT_LE(node->answer(n).state, State::TRACKED) << n;
+  node->answer(changed(4, [](PointCloud2& cloud) { cloud.data.clear(); }));
+  // What comes last in the log is there, and so is all before it.
+  EXPECT_TRUE(wait_until([&] { return !lines_of(log, node->name() + ": cannot use the frame").empty(); }));
+  EXPECT_EQ(lines_of(log, node->name() + ": the time went back, to stamp 1000.000000000").size(), 1u);
+  EXPECT_EQ(lines_of(log, node->name() + ": the time went back").size(), 1u);
+}
+
+TEST_F(LiveInput, WhatMayComeWithEveryFrameIsSaidNowAndThenAndCounted) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  ASSERT_TRUE(log.wait_for_publisher());
+  const auto node = load();
+  const auto bad = [](PointCloud2& cloud) { cloud.data.clear(); };
+  node->answer(0);
+  for (int n = 1; n < 5; ++n) node->send(changed(n, bad));
+  ASSERT_EQ(node->statuses().wait_for(5).size(), 5u);
+  const std::string words = node->name() + ": cannot use the frame";
+  // Of another kind, which has its own five seconds.
+  node->answer(0);
+  node->answer(0);
+  EXPECT_TRUE(wait_until([&] { return !lines_of(log, node->name() + ": skipped the frame").empty(); }));
+  EXPECT_EQ(lines_of(log, words).size(), 1u);
+  ros::WallDuration(5.1).sleep();
+  node->answer(changed(5, bad));
+  ASSERT_TRUE(wait_until([&] { return lines_of(log, words).size() == 2; }));
+  EXPECT_NE(lines_of(log, words)[1].find("(and 3 more of this kind before)"), std::string::npos);
+  EXPECT_EQ(lines_of(log, words)[0].find("more of this kind"), std::string::npos);
+}
+
 TEST_F(LiveInput, RepeatedAndLateFramesAreSkippedAndCounted) {
   const auto node = load();
   for (const int n : {0, 1, 3}) node->answer(n);

@@ -9,13 +9,12 @@
 
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/ConfigDescription.h>
-#include <dynamic_reconfigure/Reconfigure.h>
-#include <dynamic_reconfigure/config_tools.h>
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Log.h>
 
 #include "ros/ros_test_support.h"
 #include "ros_live/live_node_test.h"
+#include "ros_live/reconfigure.h"
 
 namespace particle_surface_tracker::test {
 namespace {
@@ -23,35 +22,6 @@ namespace {
 using State = TrackerStatus;
 
 class LiveParameters : public LiveNodeTest {};
-
-class Reconfigure {
- public:
-  explicit Reconfigure(const std::string& node) : node_(node), updates_(node + "/parameter_updates") {
-    updates_.wait_for(1);
-  }
-
-  /// Asks for a value; returns the values in force after that.
-  template <typename Value>
-  dynamic_reconfigure::Config set(const std::string& name, const Value& value) {
-    dynamic_reconfigure::Reconfigure call;
-    dynamic_reconfigure::ConfigTools::appendParameter(call.request.config, name, value);
-    if (!ros::service::call(node_ + "/set_parameters", call)) throw std::runtime_error("no reconfigure");
-    return call.response.config;
-  }
-
-  Collector<dynamic_reconfigure::Config>& updates() { return updates_; }
-
- private:
-  std::string node_;
-  Collector<dynamic_reconfigure::Config> updates_;
-};
-
-template <typename Value>
-Value value_of(const dynamic_reconfigure::Config& config, const std::string& name) {
-  Value value{};
-  if (!dynamic_reconfigure::ConfigTools::getParameter(config, name, value)) throw std::runtime_error("no " + name);
-  return value;
-}
 
 TEST_F(LiveParameters, ParametersOfTheStartAreShownWithTheirRanges) {
   const auto node = load({{"tau", "0.7"}, {"projection", "one_step"}});
@@ -132,6 +102,98 @@ TEST_F(LiveParameters, ValuesThatNeedAResetWaitForIt) {
   finer.handle(*ball_cloud(0), 0);
   EXPECT_EQ(meshes.wait_for(3).at(2)->delta, finer.message().delta);
   EXPECT_NE(meshes.wait_for(3).at(2)->delta, meshes.wait_for(3).at(0)->delta);
+}
+
+XmlRpc::XmlRpcValue on_server(const std::string& name) {
+  XmlRpc::XmlRpcValue value;
+  ros::param::get(name, value);
+  return value;
+}
+
+double tau_of(const std::string& node) {
+  Collector<dynamic_reconfigure::Config> updates(node + "/parameter_updates");
+  const auto received = updates.wait_for(1);
+  return received.empty() ? 0.0 : value_of<double>(*received.back(), "tau");
+}
+
+TEST_F(LiveParameters, ANodeThatEndsInOrderLeavesTheServerAsItWas) {
+  auto node = load({{"tau", "0.7"}});
+  const std::string name = node->name();
+  Reconfigure(name).set("tau", 0.3);
+  Reconfigure(name).set("beta", 0.02);
+  EXPECT_EQ(on_server(name).size(), 4 + static_cast<int>(parameter_table().size()) - 2);
+  ros::param::set(name + "/dx_phi", 0.6);  // Somebody else writes it, for the next start.
+  node.reset();
+  XmlRpc::XmlRpcValue left = on_server(name);
+  ASSERT_EQ(left.size(), 4);
+  EXPECT_TRUE(left.hasMember("mesh"));
+  EXPECT_TRUE(left.hasMember("spacing"));
+  EXPECT_EQ(static_cast<std::string>(left["tau"]), "0.7");
+  EXPECT_EQ(static_cast<double>(left["dx_phi"]), 0.6);
+}
+
+TEST_F(LiveParameters, AnotherConfigHoldsAtTheNextStart) {
+  const std::string one = folder_.write("one.yaml", "tau: 0.9\n");
+  const std::string two = folder_.write("two.yaml", "tau: 0.25\n");
+  const std::string name = "/configured";
+  const auto start = [&](const std::string& config) {
+    ros::param::set(name + "/config", config);
+    return manager().load(name, "particle_surface_tracker/TrackerNodelet", {}, {});
+  };
+  ros::param::set(name + "/spacing", kBallSpacing);
+  ASSERT_TRUE(start(one));
+  EXPECT_EQ(tau_of(name), 0.9);
+  manager().unload(name);
+  ASSERT_TRUE(start(two));
+  EXPECT_EQ(tau_of(name), 0.25);
+  manager().unload(name);
+}
+
+TEST_F(LiveParameters, WhatANodeThatDiedHasLeftGivesWayToAChangedConfigOnly) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  ASSERT_TRUE(log.wait_for_publisher());
+  const std::string config = folder_.write("some.yaml", "tau: 0.9\nbeta: 0.02\n");
+  const std::string name = "/died";
+  const auto start = [&] { return manager().load(name, "particle_surface_tracker/TrackerNodelet", {}, {}); };
+  const auto said = [&](const std::string& words) {
+    return wait_until([&] {
+      const auto lines = log.wait_for(0);
+      return std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+        return line->msg.find(name + ": ") == 0 && line->msg.find(words) != std::string::npos;
+      });
+    });
+  };
+  // What lies on the server after a SIGKILL.
+  const auto die = [&] {
+    const XmlRpc::XmlRpcValue left = on_server(name);
+    manager().unload(name);
+    ros::param::set(name, left);
+  };
+  ros::param::set(name + "/spacing", kBallSpacing);
+  ros::param::set(name + "/config", config);
+  ros::param::set(name + "/epsilon", 0.5);
+  ASSERT_TRUE(start());
+  Reconfigure(name).set("tau", 0.7);
+  Reconfigure(name).set("beta", 0.03);
+  die();
+  ASSERT_TRUE(start());
+  EXPECT_EQ(tau_of(name), 0.7);
+  EXPECT_TRUE(said("what dynamic_reconfigure had changed stays so: tau 0.9 -> 0.7, beta 0.02 -> 0.03"));
+  die();
+  folder_.write("some.yaml", "tau: 0.25\nbeta: 0.02\nepsilon: 0.1\n");
+  ASSERT_TRUE(start());
+  EXPECT_EQ(tau_of(name), 0.25);
+  EXPECT_TRUE(said("~config has changed since, and what it says now holds: tau = 0.25 (not 0.7)"));
+  EXPECT_EQ(static_cast<double>(on_server(name + "/beta")), 0.03);
+  // What a user gives beside it wins over it, before and after.
+  EXPECT_EQ(static_cast<double>(on_server(name + "/epsilon")), 0.5);
+  die();
+  ros::param::set(name + "/tau", 0.4);
+  ASSERT_TRUE(start());
+  EXPECT_EQ(tau_of(name), 0.4);
+  manager().unload(name);
+  EXPECT_EQ(static_cast<double>(on_server(name + "/tau")), 0.4);
+  EXPECT_EQ(on_server(name).size(), 4);
 }
 
 TEST_F(LiveParameters, NodesThatCannotStartSayWhyAndTheManagerLives) {

@@ -99,6 +99,31 @@ TEST_F(LivePolicies, StrictFindsAGapByTheStamps) {
   EXPECT_EQ(node->answer(uncounted(9)).state, State::FAILED);
 }
 
+// A publisher that restarts counts from the beginning, while the stamps go on.
+TEST_F(LivePolicies, StrictGoesOnWithAPublisherThatRestarts) {
+  const auto node = load({{"queue_policy", "strict"}});
+  const auto numbered = [](int n, std::uint32_t seq) {
+    return changed(n, [seq](PointCloud2& cloud) { cloud.header.seq = seq; });
+  };
+  for (int n = 0; n < 6; ++n) EXPECT_LE(node->answer(numbered(n, 100 + n)).state, State::TRACKED) << n;
+  for (int n = 6; n < 9; ++n) {
+    const State status = node->answer(numbered(n, n - 6));
+    EXPECT_EQ(status.state, State::TRACKED) << n << ": " << status.reason;
+    EXPECT_EQ(status.frames_missing, 0u) << n;
+    EXPECT_EQ(status.frame, static_cast<std::uint64_t>(n));
+  }
+  // The new numbers are relied on as the old ones were,
+  const State gap = node->answer(numbered(11, 5));
+  EXPECT_EQ(gap.state, State::FAILED);
+  EXPECT_TRUE(has(gap.reason, "2 frames are missing")) << gap.reason;
+  // and what is lost while it restarts is found by the stamps.
+  call_reset(*node);
+  for (int n = 12; n < 18; ++n) EXPECT_LE(node->answer(numbered(n, 100 + n)).state, State::TRACKED) << n;
+  const State restart = node->answer(numbered(21, 0));
+  EXPECT_EQ(restart.state, State::FAILED);
+  EXPECT_TRUE(has(restart.reason, "3 frames are missing")) << restart.reason;
+}
+
 TEST_F(LivePolicies, StrictTakesAFullQueueForAGap) {
   const auto node = load({{"queue_policy", "strict"}, {"queue_size", "1"}});
   for (int n = 0; n < 60; ++n) node->send(n);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <particle_surface_tracker/SaveMesh.h>
+#include <rosgraph_msgs/Log.h>
 #include <shape_msgs/Mesh.h>
 #include <std_srvs/SetBool.h>
 
@@ -35,6 +36,13 @@ void pause(const LiveNode& node, bool paused) {
   ASSERT_TRUE(ros::service::call(node.name() + "/pause", call));
   EXPECT_TRUE(call.response.success);
   EXPECT_FALSE(call.response.message.empty());
+}
+
+std::size_t warnings_of(Collector<rosgraph_msgs::Log>& log, const std::string& words) {
+  const auto lines = log.wait_for(0);
+  return static_cast<std::size_t>(std::count_if(lines.begin(), lines.end(), [&](const auto& line) {
+    return line->level == rosgraph_msgs::Log::WARN && line->msg.find(words) == 0;
+  }));
 }
 
 // The last status, once there is one that fulfils a condition.
@@ -102,6 +110,51 @@ TEST_F(LiveServices, FramesWaitDuringAPause) {
   EXPECT_EQ(last.state, State::TRACKED);
   EXPECT_EQ(last.frames_tracked, 4u);
   EXPECT_EQ(last.frame, 3u);
+}
+
+TEST_F(LiveServices, WhatIsDroppedDuringAPauseIsSaidAtOnce) {
+  Collector<rosgraph_msgs::Log> log("/rosout");
+  const auto node = load({{"queue_size", "2"}});
+  node->answer(0);
+  pause(*node, true);
+  wait_for_status(*node, [](const State& status) { return status.state == State::WAITING; });
+  for (int n = 1; n < 8; ++n) node->send(n);
+  const State waiting = wait_for_status(
+      *node, [](const State& status) { return status.state == State::WAITING && status.frames_dropped == 5; });
+  EXPECT_EQ(waiting.queue_length, 2u);
+  EXPECT_EQ(waiting.frames_received, 6u);
+  EXPECT_EQ(waiting.header.stamp, ball_cloud(0)->header.stamp);
+  EXPECT_TRUE(wait_until([&] { return warnings_of(log, node->name() + ": dropped the frame of stamp") > 0; }));
+  pause(*node, false);
+  wait_for_status(*node, [](const State& status) { return status.frames_received == 8; });
+  // Those that waited come before those that were dropped, and are counted so.
+  const State next = node->answer(8);
+  EXPECT_EQ(next.state, State::TRACKED);
+  EXPECT_EQ(next.frames_tracked, 4u);
+  EXPECT_EQ(next.frames_dropped, 5u);
+  EXPECT_EQ(next.frames_missing, 0u);
+  EXPECT_EQ(next.frame, 8u);
+}
+
+TEST_F(LiveServices, StrictTracksWhatWaitedBeforeAGapInAPause) {
+  const auto node = load({{"queue_policy", "strict"}, {"queue_size", "2"}});
+  node->answer(0);
+  pause(*node, true);
+  wait_for_status(*node, [](const State& status) { return status.state == State::WAITING; });
+  for (int n = 1; n < 5; ++n) node->send(n);
+  wait_for_status(*node, [](const State& status) { return status.frames_failed == 2; });
+  // What waits belongs to the run that the reset begins; so does the gap behind it.
+  call_reset(*node);
+  pause(*node, false);
+  const State waited = wait_for_status(*node, [](const State& status) { return status.frames_received == 5; });
+  EXPECT_EQ(waited.state, State::TRACKED);
+  EXPECT_EQ(waited.run, 2u);
+  const State next = node->answer(5);
+  EXPECT_EQ(next.state, State::FAILED);
+  EXPECT_NE(next.reason.find("queue_size is 2"), std::string::npos) << next.reason;
+  call_reset(*node);
+  EXPECT_EQ(node->answer(6).state, State::STARTED);
+  EXPECT_EQ(node->answer(7).state, State::TRACKED);
 }
 
 TEST_F(LiveServices, PolicyLatestSkipsDuringAPause) {

@@ -1,7 +1,5 @@
 #include "ros_live/node_process.h"
 
-#include <csignal>
-
 #include <ros/network.h>
 #include <ros/ros.h>
 #include <xmlrpcpp/XmlRpc.h>
@@ -47,9 +45,9 @@ int connection_count(const std::string& node, const std::string& topic) {
   return count;
 }
 
-pid_t kill_node(const std::string& node) {
+pid_t kill_node(const std::string& node, int signal) {
   const pid_t process = process_of(node);
-  if (process != 0) kill(process, SIGKILL);
+  if (process != 0) kill(process, signal);
   return process;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <string>
 
 #include <sys/types.h>
@@ -10,9 +11,9 @@ namespace particle_surface_tracker::test {
 /// \return 0 if it does not answer.
 pid_t process_of(const std::string& node);
 
-/// Kills the process of a node, which cannot do anything about it.
+/// Sends a signal to the process of a node. About SIGKILL it cannot do anything; with SIGINT it ends in order.
 /// \return the process; 0 if there is none.
-pid_t kill_node(const std::string& node);
+pid_t kill_node(const std::string& node, int signal = SIGKILL);
 
 /// Connections through which a node receives a topic.
 int connection_count(const std::string& node, const std::string& topic);

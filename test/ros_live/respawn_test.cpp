@@ -10,6 +10,8 @@
 #include "particle_surface_tracker/ros/time_conversion.h"
 #include "ros_live/live_node.h"
 #include "ros_live/node_process.h"
+#include "ros_live/reconfigure.h"
+#include "support/temporary_folder.h"
 
 namespace particle_surface_tracker::test {
 namespace {
@@ -128,6 +130,66 @@ TEST(Respawn, ANodeletGoesOnAsIfNothingHadBeen) {
   // The loader of a nodelet learns from a bond that its manager is gone. Where that happens in the first seconds, it
   // may wait for ever.
   expect_same_meshes("/managed", "/manager", /*kills*/ 2, /*settling*/ 4.0);
+}
+
+TEST(Respawn, AValueThatWaitsForAResetLosesNoRun) {
+  const std::string name = "/reconfigured";
+  const Meshes wanted = uninterrupted();
+  KilledNode node(name, name);
+  for (int n = 0; n < 4; ++n) ASSERT_LE(node.answer(n).state, TrackerStatus::SKIPPED);
+  Reconfigure(name).set("dx_phi", 0.75);
+  node.answer(4);
+  ASSERT_TRUE(wait_until([&] { return node.has_checkpoint(); }));
+  ASSERT_NO_FATAL_FAILURE(node.kill_and_wait());
+  // The source begins again. Frame 4 may have been answered, but not yet kept.
+  for (int n = 0; n < 4; ++n) EXPECT_EQ(node.answer(n).state, TrackerStatus::SKIPPED) << n;
+  node.answer(4);
+  const TrackerStatus next = node.answer(5);
+  EXPECT_EQ(next.state, TrackerStatus::TRACKED) << next.reason;
+  EXPECT_EQ(next.frame, 5u);
+  EXPECT_EQ(value_of<double>(*Reconfigure(name).updates().wait_for(1).back(), "dx_phi"), 0.75);
+  ASSERT_TRUE(wait_until([&] {
+    const auto received = node.meshes().wait_for(0);
+    return !received.empty() && received.back()->header.stamp == drops_cloud(5)->header.stamp;
+  }));
+  for (const auto& mesh : node.meshes().wait_for(0)) {
+    EXPECT_TRUE(bytes_of(*mesh) == wanted.at(to_nanoseconds(mesh->header.stamp))) << mesh->header.stamp;
+  }
+}
+
+TEST(Respawn, ANodeThatIsInterruptedTakesItsParametersAway) {
+  const std::string name = "/interrupted";
+  Collector<dynamic_reconfigure::Config> updates(name + "/parameter_updates");
+  ASSERT_EQ(updates.wait_for(1).size(), 1u);
+  EXPECT_TRUE(ros::param::has(name + "/dx_phi"));
+  EXPECT_TRUE(ros::param::has(name + "/parameter_record"));
+  Reconfigure(name).set("tau", 0.3);
+  ASSERT_NE(kill_node(name, SIGINT), 0);
+  EXPECT_TRUE(wait_until([&] { return !ros::param::has(name + "/parameter_record"); }));
+  EXPECT_FALSE(ros::param::has(name + "/dx_phi"));
+  double tau = 0.0;
+  EXPECT_TRUE(ros::param::get(name + "/tau", tau));
+  EXPECT_EQ(tau, 0.6);
+}
+
+TEST(Respawn, AnotherConfigHoldsAfterAnOrderlyEndAndAfterACrash) {
+  const std::string name = "/configured";
+  const TemporaryFolder folder;
+  const auto tau_with = [&](const std::string& config, int signal) {
+    ros::param::set(name + "/config", config);
+    const pid_t ended = kill_node(name, signal);
+    EXPECT_TRUE(ended != 0 && wait_for_respawn(name, ended));
+    Collector<dynamic_reconfigure::Config> updates(name + "/parameter_updates");
+    const auto received = updates.wait_for(1);
+    return received.empty() ? 0.0 : value_of<double>(*received.back(), "tau");
+  };
+  const std::string one = folder.write("one.yaml", "tau: 0.9\n");
+  const std::string two = folder.write("two.yaml", "tau: 0.25\n");
+  ASSERT_TRUE(wait_until([&] { return process_of(name) != 0; }));
+  for (const int signal : {SIGINT, SIGKILL}) {
+    EXPECT_EQ(tau_with(one, signal), 0.9) << signal;
+    EXPECT_EQ(tau_with(two, signal), 0.25) << signal;
+  }
 }
 
 }  // namespace

@@ -26,10 +26,11 @@ std::string count_missing(std::uint64_t count) {
 }  // namespace
 
 FrameAdmission::Verdict FrameAdmission::judge(const ReceivedFrame& frame, TrackerStatus& status) {
-  if (policy_ == QueuePolicy::kStrict && gap_.empty() && frame.reception == Reception::kDropped) {
-    open_gap(fmt::format("{} at the frame of {}", frame.reason, stamp_of(frame.header)));
+  if (!frame.is_ahead) pass_over_those_ahead(frame);
+  if (policy_ == QueuePolicy::kStrict && !is_in_gap(frame) && frame.reception == Reception::kDropped) {
+    open_gap(frame, fmt::format("{} at the frame of {}", frame.reason, stamp_of(frame.header)));
   }
-  if (!gap_.empty()) {
+  if (is_in_gap(frame)) {
     refuse(status);
     return Verdict::kRefused;
   }
@@ -40,12 +41,17 @@ FrameAdmission::Verdict FrameAdmission::judge(const ReceivedFrame& frame, Tracke
     status.reason = "it is not later than the last frame of the checkpoint that the run went on from";
     return Verdict::kRefused;
   }
-  sequence_.pass_over();
+  if (!frame.is_ahead) sequence_.pass_over();
   status.reason = frame.reason;
   status.state = frame.reception == Reception::kDropped    ? TrackerStatus::DROPPED
                  : frame.reception == Reception::kReplaced ? TrackerStatus::SKIPPED
                                                            : TrackerStatus::INVALID;
   return Verdict::kRefused;
+}
+
+void FrameAdmission::pass_over_those_ahead(const ReceivedFrame& frame) {
+  sequence_.pass_over(frame.number - last_number_ - 1);
+  last_number_ = frame.number;
 }
 
 bool FrameAdmission::came_before(const ReceivedFrame& frame) {
@@ -86,7 +92,7 @@ FrameAdmission::Verdict FrameAdmission::judge_header(const ReceivedFrame& frame,
       break;
   }
   if (judgement.missing > 0) note_missing(frame, judgement.missing, status);
-  if (!gap_.empty()) {
+  if (is_in_gap(frame)) {
     refuse(status);
     return Verdict::kRefused;
   }
@@ -100,7 +106,7 @@ void FrameAdmission::note_missing(const ReceivedFrame& frame, std::uint64_t miss
   counts_.frames_missing += missing;
   const std::string what = count_missing(missing);
   if (policy_ == QueuePolicy::kStrict) {
-    open_gap(fmt::format("{} before {}", what, stamp_of(frame.header)));
+    open_gap(frame, fmt::format("{} before {}", what, stamp_of(frame.header)));
     return;
   }
   status.warnings.push_back(what + " before this one");
@@ -109,8 +115,9 @@ void FrameAdmission::note_missing(const ReceivedFrame& frame, std::uint64_t miss
                                              what, stamp_of(frame.header), counts_.frames_missing));
 }
 
-void FrameAdmission::open_gap(const std::string& what) {
+void FrameAdmission::open_gap(const ReceivedFrame& frame, const std::string& what) {
   gap_ = what;
+  gap_begin_ = frame.number;
   log_.error(
       fmt::format("a gap in the input: {}. queue_policy is strict: no more frames are tracked until ~reset", gap_));
 }
@@ -122,11 +129,12 @@ void FrameAdmission::refuse(TrackerStatus& status) const {
 
 void FrameAdmission::conclude(const ReceivedFrame& frame, const TrackerStatus& status) {
   count(frame, status);
-  if (policy_ != QueuePolicy::kStrict || !gap_.empty()) return;
+  if (policy_ != QueuePolicy::kStrict || is_in_gap(frame)) return;
   // What is not in the mesh is a gap for the next frame, for whatever reason. Before the first mesh it is none, unless
-  // the frame that the mesh belongs to is the one that failed.
-  if (status.state == TrackerStatus::FAILED || (status.state == TrackerStatus::INVALID && has_mesh_)) {
-    open_gap(fmt::format("the frame of {} could not be tracked ({})", stamp_of(frame.header), status.reason));
+  // the frame that the mesh belongs to is the one that failed. Before one that is ahead the mesh will be there.
+  const bool has_mesh = has_mesh_ || frame.is_ahead;
+  if (status.state == TrackerStatus::FAILED || (status.state == TrackerStatus::INVALID && has_mesh)) {
+    open_gap(frame, fmt::format("the frame of {} could not be tracked ({})", stamp_of(frame.header), status.reason));
   }
 }
 
@@ -171,7 +179,11 @@ void FrameAdmission::reset() {
   sequence_.reset();
   has_mesh_ = false;
   went_on_ = false;
-  gap_.clear();
+  if (gap_begin_ <= last_number_ + 1) {
+    gap_.clear();
+  } else if (!gap_.empty()) {
+    log_.warn("frames from before the gap wait still: the next run has them, and ends at the gap");
+  }
 }
 
 InputPlace FrameAdmission::place() const {

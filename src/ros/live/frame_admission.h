@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <particle_surface_tracker/TrackerStatus.h>
@@ -29,7 +30,8 @@ class FrameAdmission {
   /// Takes note of what became of it in the end, whether it was tracked or not.
   void conclude(const ReceivedFrame& frame, const TrackerStatus& status);
 
-  /// The next frame is the first of a run; a gap is forgiven.
+  /// The next frame is the first of a run; a gap is forgiven, unless frames that came before it still wait: it will be
+  /// one of the new run.
   void reset();
 
   /// The counts so far.
@@ -48,7 +50,11 @@ class FrameAdmission {
   Verdict judge_header(const ReceivedFrame& frame, TrackerStatus& status);
   void note_missing(const ReceivedFrame& frame, std::uint64_t missing, TrackerStatus& status);
   void refuse(TrackerStatus& status) const;
-  void open_gap(const std::string& what);
+  // From a frame on.
+  void open_gap(const ReceivedFrame& frame, const std::string& what);
+  bool is_in_gap(const ReceivedFrame& frame) const { return !gap_.empty() && frame.number >= gap_begin_; }
+  // Those that are ahead are counted in the sequence where they would have stood.
+  void pass_over_those_ahead(const ReceivedFrame& frame);
   void count(const ReceivedFrame& frame, const TrackerStatus& status);
 
   QueuePolicy policy_;
@@ -57,8 +63,10 @@ class FrameAdmission {
   TrackerStatus counts_;   // Only its counters are used.
   bool has_mesh_ = false;  // A frame of this run was tracked.
   InputPlace::Start start_;
-  bool went_on_ = false;  // From a checkpoint; no new frame has come since.
-  std::string gap_;       // Of policy strict: what was lost first, in words; empty as long as nothing was.
+  bool went_on_ = false;           // From a checkpoint; no new frame has come since.
+  std::string gap_;                // Of policy strict: what was lost first, in words; empty as long as nothing was.
+  std::uint64_t gap_begin_ = 0;    // Number of the frame that it begins with, which may be ahead.
+  std::uint64_t last_number_ = 0;  // Of the last frame that was not ahead.
 };
 
 }  // namespace particle_surface_tracker

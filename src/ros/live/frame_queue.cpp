@@ -1,5 +1,6 @@
 #include "ros/live/frame_queue.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@ FrameQueue::FrameQueue(std::size_t limit, QueuePolicy policy) : limit_(limit), p
 void FrameQueue::push(ReceivedFrame frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    frame.number = ++arrived_;
     bool begins = false;
     if (frame.reception == Reception::kUsable) {
       begins = begins_run(frame);
@@ -27,6 +29,7 @@ void FrameQueue::push(ReceivedFrame frame) {
       }
     }
     places_.push_back({std::move(frame), begins});
+    if (held_) let_go_ahead();
   }
   changed_.notify_one();
 }
@@ -53,6 +56,17 @@ void FrameQueue::replace_waiting(bool with_begin) {
   }
 }
 
+void FrameQueue::let_go_ahead() {
+  if (places_.size() == clouds_) return;
+  const auto lost = std::stable_partition(
+      places_.begin(), places_.end(), [](const Place& place) { return place.frame.reception == Reception::kUsable; });
+  for (auto place = lost; place != places_.end(); ++place) {
+    place->frame.is_ahead = lost != places_.begin() && place->frame.number > places_.front().frame.number;
+    ahead_.push_back(std::move(place->frame));
+  }
+  places_.erase(lost, places_.end());
+}
+
 void FrameQueue::push(Command command) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -65,6 +79,7 @@ void FrameQueue::hold(bool held) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     held_ = held;
+    if (held_) let_go_ahead();
   }
   changed_.notify_one();
 }
@@ -78,7 +93,7 @@ void FrameQueue::close() {
 }
 
 bool FrameQueue::has_frame() const {
-  return !places_.empty() && !(held_ && places_.front().frame.reception == Reception::kUsable);
+  return !ahead_.empty() || (!held_ && !places_.empty());
 }
 
 bool FrameQueue::wait(std::unique_lock<std::mutex>& lock, const std::optional<Time>& until) {
@@ -99,12 +114,20 @@ std::optional<ReceivedFrame> FrameQueue::pop(std::optional<Time> until) {
       lock.lock();
       continue;
     }
-    ReceivedFrame frame = std::move(places_.front().frame);
-    places_.pop_front();
-    if (frame.reception == Reception::kUsable) --clouds_;
-    return frame;
+    return take();
   }
   return std::nullopt;
+}
+
+ReceivedFrame FrameQueue::take() {
+  ReceivedFrame frame = std::move(ahead_.empty() ? places_.front().frame : ahead_.front());
+  if (ahead_.empty()) {
+    places_.pop_front();
+  } else {
+    ahead_.pop_front();
+  }
+  if (frame.reception == Reception::kUsable) --clouds_;
+  return frame;
 }
 
 bool FrameQueue::closed() const {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -30,12 +31,16 @@ struct ReceivedFrame {
   std_msgs::Header header;
   sensor_msgs::PointCloud2ConstPtr cloud;  ///< Null unless it is usable.
   Reception reception = Reception::kUsable;
-  std::string reason;  ///< Why it is not usable.
+  std::string reason;        ///< Why it is not usable.
+  std::uint64_t number = 0;  ///< In the order of arrival, from 1 on.
+  bool is_ahead = false;     ///< It left the row before others that had arrived earlier, because those are held.
   std::chrono::steady_clock::time_point arrival = std::chrono::steady_clock::now();
 };
 
 /// Hands frames, and commands that go first, from the callbacks to the one thread that tracks. Frames that are not
-/// going to be tracked keep their place in the row, without their data, so that every frame is answered in order.
+/// going to be tracked keep their place in the row, without their data, so that every frame is answered in order. Only
+/// while frames are held they go ahead: a pause may last, and what is lost in it is to be known at once, and to take no
+/// memory.
 class FrameQueue {
  public:
   using Command = std::function<void()>;
@@ -47,8 +52,8 @@ class FrameQueue {
   void push(ReceivedFrame frame);
   void push(Command command);
 
-  /// While frames are held, pop() returns none that is usable. Commands run, and what is not usable is answered as far
-  /// as nothing that waits comes before it.
+  /// While frames are held, pop() returns none that is usable. Commands run, and what is not usable goes ahead of what
+  /// waits.
   void hold(bool held);
 
   /// Ends the waiting of pop(), now and for ever.
@@ -75,15 +80,19 @@ class FrameQueue {
   bool has_frame() const;
   bool begins_run(const ReceivedFrame& frame);
   void replace_waiting(bool with_begin);
+  void let_go_ahead();
+  ReceivedFrame take();
 
   const std::size_t limit_;
   const QueuePolicy policy_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Place> places_;
-  InputSequence arrivals_;  // Usable frames, as they arrive.
+  std::deque<ReceivedFrame> ahead_;  // What is not usable and stood behind frames that are held.
+  InputSequence arrivals_;           // Usable frames, as they arrive.
   std::deque<Command> commands_;
   std::size_t clouds_ = 0;
+  std::uint64_t arrived_ = 0;
   bool held_ = false;
   bool closed_ = false;
 };

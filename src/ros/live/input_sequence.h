@@ -37,8 +37,8 @@ class InputSequence {
   /// is more than 1.5 times the median of the last ones.
   Judgement judge(const std_msgs::Header& header);
 
-  /// A frame arrived that is not judged: its header cannot be relied on, or it is not going to be tracked.
-  void pass_over() { ++passed_over_; }
+  /// Frames arrived that are not judged: their headers cannot be relied on, or they are not going to be tracked.
+  void pass_over(std::uint64_t frames = 1) { passed_over_ += frames; }
 
   /// The next frame is the first.
   void reset() { *this = InputSequence(); }

@@ -87,6 +87,11 @@ void NodeDiagnostics::note_waiting(const std::string& reason) {
   state_.waiting_for = reason;
 }
 
+void NodeDiagnostics::note_waiting_parameters(const std::string& parameters) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.waiting_parameters = parameters;
+}
+
 void NodeDiagnostics::note_reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
   state_.failure.clear();
@@ -149,6 +154,7 @@ void NodeDiagnostics::describe_tracking(Report& report) const {
   report.add("surfaces made here", status.surfaces_own);
   report.add("runs", status.run);
   report.add("frames that wait", status.queue_length);
+  report.add("waits for reset", shown_.waiting_parameters.empty() ? "nothing" : shown_.waiting_parameters);
   report.add("longest latency [s]", latency);
   report.add("time of a frame [s]", shown_interval_.tracking_time / frames);
   for (const auto& [stage, time] : shown_interval_.stages) {

@@ -41,6 +41,9 @@ class NodeDiagnostics {
   /// Nothing is tracked, for this reason, until it is empty.
   void note_waiting(const std::string& reason);
 
+  /// Parameters that wait for a reset, in words; empty if there are none.
+  void note_waiting_parameters(const std::string& parameters);
+
   /// What failed before does not matter any more.
   void note_reset();
 
@@ -67,6 +70,7 @@ class NodeDiagnostics {
     std::uint64_t remeshed_cells = 0;
     std::string failure;  // Of the last frame, if it failed.
     std::string waiting_for;
+    std::string waiting_parameters;
     FrameReport report;
     TrackedMeshConstPtr mesh;
     Clock::time_point last_arrival = Clock::now();

@@ -9,8 +9,8 @@
 
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
-#include "particle_surface_tracker/io/parameter_file.h"
 #include "ros/live/private_parameters.h"
+#include "ros/live/tracker_parameters.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -35,21 +35,6 @@ void read_mesh(PrivateParameters& source, NodeOptions& options) {
     options.warnings.push_back(fmt::format("~mesh '{}': {}", path, warning));
   }
   options.handler.mesh = std::move(loaded.mesh);
-}
-
-// Those of the tracker itself: from the file first, then one by one.
-void read_tracker_parameters(PrivateParameters& source, Parameters& parameters) {
-  if (const auto path = source.text("config")) read_parameter_file(*path, parameters);
-  for (const ParameterInfo& info : parameter_table()) {
-    const auto value = source.text(info.name);
-    if (!value) continue;
-    if (info.name == "particle_spacing") throw ParameterError("~particle_spacing is set by ~spacing");
-    try {
-      set_parameter(parameters, info.name, *value);
-    } catch (const ParameterError& error) {
-      throw ParameterError(fmt::format("~{}", error.what()));
-    }
-  }
 }
 
 /// One of several named values.
@@ -109,8 +94,13 @@ void read_checkpoint_options(PrivateParameters& source, CheckpointOptions& optio
 NodeOptions read_node_options(const ros::NodeHandle& private_handle) {
   NodeOptions options;
   PrivateParameters source(private_handle);
-  read_tracker_parameters(source, options.handler.parameters);
+  const TrackerParameters tracker = read_tracker_parameters(source, private_handle);
+  options.handler.parameters = tracker.wanted;
+  options.configured = tracker.configured;
+  options.parameter_record = tracker.record;
+  options.notes = tracker.notes;
   read_spacing(source, options.handler);
+  options.configured.particle_spacing = options.handler.parameters.particle_spacing;
   options.handler.refine_mesh = source.flag("refine_initial", false);
   options.content.normals = source.flag("publish_normals", false);
   options.content.velocities = source.flag("publish_velocities", false);

@@ -11,6 +11,7 @@
 #include "ros/live/frame_queue.h"
 #include "ros/live/marker_outputs.h"
 #include "ros/live/node_diagnostics.h"
+#include "ros/live/parameter_record.h"
 #include "ros/surface/surface_topics.h"
 
 namespace particle_surface_tracker {
@@ -18,6 +19,9 @@ namespace particle_surface_tracker {
 /// Everything that private parameters set.
 struct NodeOptions {
   FrameHandlerOptions handler;
+  Parameters
+      configured;  ///< Those of the handler without what dynamic_reconfigure has changed before the node came up.
+  ParameterRecord parameter_record;
   MessageContent content;
   std::size_t queue_size = 50;
   QueuePolicy queue_policy = QueuePolicy::kAll;
@@ -28,6 +32,7 @@ struct NodeOptions {
   SurfaceOptions surfaces;
   MarkerOptions marker;
   DiagnosticOptions diagnostics;
+  std::vector<std::string> notes;     ///< What became of values that were found, in words.
   std::vector<std::string> warnings;  ///< What a user should know, in words.
 };
 

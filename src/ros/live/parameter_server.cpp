@@ -1,6 +1,5 @@
 #include "ros/live/parameter_server.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,6 +46,15 @@ TrackerConfig bounds(double ParameterInfo::*bound) {
   return config;
 }
 
+// All that the server writes.
+ParameterRecord::Texts texts_of(const Parameters& parameters) {
+  ParameterRecord::Texts texts;
+  for (const auto& description : TrackerConfig::__getParamDescriptions__()) {
+    texts[description->name] = get_parameter(parameters, description->name);
+  }
+  return texts;
+}
+
 }  // namespace
 
 TrackerConfig to_config(const Parameters& parameters) {
@@ -69,8 +77,13 @@ void apply_config(const TrackerConfig& config, Parameters& parameters) {
   parameters = changed;
 }
 
-ParameterServer::ParameterServer(const ros::NodeHandle& private_handle, const Parameters& initial, Handler handler)
-    : name_(private_handle.getNamespace()), in_force_(initial), handler_(std::move(handler)) {
+ParameterServer::ParameterServer(const ros::NodeHandle& private_handle, const Parameters& initial,
+                                 ParameterRecord record, Handler handler)
+    : name_(private_handle.getNamespace()),
+      wanted_(initial),
+      record_(private_handle, std::move(record)),
+      handler_(std::move(handler)) {
+  record_.note(texts_of(initial));
   // The server begins with what it finds there.
   to_config(initial).__toServer__(private_handle);
   server_ = std::make_unique<dynamic_reconfigure::Server<TrackerConfig>>(mutex_, private_handle);
@@ -82,29 +95,23 @@ ParameterServer::ParameterServer(const ros::NodeHandle& private_handle, const Pa
 
 ParameterServer::~ParameterServer() {
   server_->clearCallback();
-}
-
-void ParameterServer::show(const Parameters& parameters) {
-  const boost::recursive_mutex::scoped_lock lock(mutex_);
-  in_force_ = parameters;
-  server_->updateConfig(to_config(parameters));
+  server_.reset();
+  record_.restore();
 }
 
 void ParameterServer::change(TrackerConfig& config) {
-  Parameters wanted = in_force_;
+  Parameters changed = wanted_;
   try {
-    apply_config(config, wanted);
+    apply_config(config, changed);
   } catch (const ParameterError& error) {
     ROS_WARN_STREAM(name_ << ": refused: " << error.what() << "; all parameters stay as they were");
-    config = to_config(in_force_);
+    config = to_config(wanted_);
     return;
   }
-  const bool is_new = std::any_of(parameter_table().begin(), parameter_table().end(), [&](const ParameterInfo& info) {
-    return get_parameter(wanted, info.name) != get_parameter(in_force_, info.name);
-  });
-  if (!is_new) return;
-  in_force_ = wanted;
-  handler_(wanted);
+  if (texts_of(changed) == texts_of(wanted_)) return;
+  wanted_ = changed;
+  record_.note(texts_of(wanted_));
+  handler_(wanted_);
 }
 
 }  // namespace particle_surface_tracker

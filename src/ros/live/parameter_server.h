@@ -8,6 +8,7 @@
 #include <particle_surface_tracker/TrackerConfig.h>
 
 #include "particle_surface_tracker/core/parameters.h"
+#include "ros/live/parameter_record.h"
 
 namespace particle_surface_tracker {
 
@@ -20,24 +21,27 @@ TrackerConfig to_config(const Parameters& parameters);
 void apply_config(const TrackerConfig& config, Parameters& parameters);
 
 /// The dynamic_reconfigure server of a node. Ranges are those of parameter_table(); a value out of range is refused,
-/// said, and the value in force shown again, where dynamic_reconfigure by itself would silently take the nearest.
+/// said, and the value before it shown again, where dynamic_reconfigure by itself would silently take the nearest. What
+/// is shown are the values that are wanted; whether they are in force already is said in the diagnostics.
 class ParameterServer {
  public:
   /// Receives valid parameters, on the thread of the service call.
   using Handler = std::function<void(const Parameters&)>;
 
-  ParameterServer(const ros::NodeHandle& private_handle, const Parameters& initial, Handler handler);
-  ~ParameterServer();
+  /// \param record of those that the node comes up with.
+  ParameterServer(const ros::NodeHandle& private_handle, const Parameters& initial, ParameterRecord record,
+                  Handler handler);
 
-  /// Shows these values; they are taken to be in force.
-  void show(const Parameters& parameters);
+  /// Takes what was written to the parameter server away again.
+  ~ParameterServer();
 
  private:
   void change(TrackerConfig& config);
 
   std::string name_;
-  boost::recursive_mutex mutex_;  // Of in_force_, and of the server.
-  Parameters in_force_;
+  boost::recursive_mutex mutex_;  // Of the next two, and of the server.
+  Parameters wanted_;
+  ParameterRecordKeeper record_;
   Handler handler_;
   std::unique_ptr<dynamic_reconfigure::Server<TrackerConfig>> server_;
 };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "ros/live/parameter_text.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -21,24 +22,15 @@ Number parse(const std::string& name, const std::string& text, Number minimum, N
 
 }  // namespace
 
-std::optional<std::string> PrivateParameters::text(const std::string& name) {
+XmlRpc::XmlRpcValue PrivateParameters::value(const std::string& name) {
   known_.insert(name);
   XmlRpc::XmlRpcValue value;
-  if (!handle_.getParam(name, value)) return std::nullopt;
-  switch (value.getType()) {
-    case XmlRpc::XmlRpcValue::TypeBoolean:
-      return static_cast<bool>(value) ? "true" : "false";
-    case XmlRpc::XmlRpcValue::TypeInt:
-      return fmt::format("{}", static_cast<int>(value));
-    case XmlRpc::XmlRpcValue::TypeDouble:
-      return fmt::format("{}", static_cast<double>(value));
-    case XmlRpc::XmlRpcValue::TypeString:
-      break;
-    default:
-      throw ParameterError(fmt::format("~{} is a list or a map; it must be a single value", name));
-  }
-  const auto string = static_cast<std::string>(value);
-  return string.empty() ? std::nullopt : std::make_optional(string);
+  return handle_.getParam(name, value) ? value : XmlRpc::XmlRpcValue();
+}
+
+std::optional<std::string> PrivateParameters::text(const std::string& name) {
+  const XmlRpc::XmlRpcValue set = value(name);
+  return set.valid() ? to_text(name, set) : std::nullopt;
 }
 
 bool PrivateParameters::flag(const std::string& name, bool otherwise) {
@@ -67,7 +59,7 @@ std::vector<std::string> PrivateParameters::unknown() const {
   for (const std::string& name : names) {
     if (name.compare(0, prefix.size(), prefix) != 0) continue;
     const std::string own = name.substr(prefix.size());
-    if (known_.count(own) == 0) unknown.push_back(own);
+    if (known_.count(own.substr(0, own.find('/'))) == 0) unknown.push_back(own);
   }
   return unknown;
 }

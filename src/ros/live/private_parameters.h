@@ -14,6 +14,9 @@ class PrivateParameters {
  public:
   explicit PrivateParameters(const ros::NodeHandle& handle) : handle_(handle) {}
 
+  /// The value as it is set; invalid if it is not.
+  XmlRpc::XmlRpcValue value(const std::string& name);
+
   /// The value as text, of a number, flag or string; nothing if it is not set, or an empty string.
   /// \throw ParameterError if it is a list or a map.
   std::optional<std::string> text(const std::string& name);
@@ -26,6 +29,9 @@ class PrivateParameters {
 
   /// \throw ParameterError if it is no whole number in [minimum, maximum].
   long whole(const std::string& name, long otherwise, long minimum, long maximum);
+
+  /// A parameter, or a map of them, that is not for users.
+  void pass_over(const std::string& name) { known_.insert(name); }
 
   /// Parameters that are set and that nobody asked for.
   std::vector<std::string> unknown() const;

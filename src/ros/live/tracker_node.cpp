@@ -38,8 +38,9 @@ TrackerNode::TrackerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
                     ? nullptr
                     : std::make_unique<SurfaceTopics>(handle, options.surfaces, options.queue_size, name_)),
       worker_(options, outputs_, diagnostics_, surfaces_.get(), name_),
-      parameter_server_(private_handle, options.handler.parameters,
-                        [this](const Parameters& parameters) { worker_.set_parameters(parameters, [] {}); }) {
+      parameter_server_(private_handle, options.handler.parameters, options.parameter_record,
+                        [this](const Parameters& parameters) { worker_.set_parameters(parameters); }) {
+  for (const std::string& note : options.notes) ROS_INFO_STREAM(name_ << ": " << note);
   for (const std::string& warning : options.warnings) ROS_WARN_STREAM(name_ << ": " << warning);
   reset_service_ = private_handle.advertiseService("reset", &TrackerNode::reset, this);
   pause_service_ = private_handle.advertiseService("pause", &TrackerNode::pause, this);

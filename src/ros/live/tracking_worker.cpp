@@ -3,7 +3,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <boost/make_shared.hpp>
 
 #include "particle_surface_tracker/core/error.h"
@@ -22,6 +21,9 @@ TrackingWorker::TrackingWorker(NodeOptions options, NodeOutputs& outputs, NodeDi
       log_(name),
       queue_(options.queue_size, options.queue_policy),
       admission_(options.queue_policy, log_),
+      configured_(options.configured),
+      wanted_(options.handler.parameters),
+      estimates_spacing_(options.handler.estimate_spacing),
       handler_(std::move(options.handler)),
       keeper_(options.checkpoint, log_),
       awaits_mesh_(options.mesh_from_topic) {
@@ -81,23 +83,6 @@ void TrackingWorker::set_initial_mesh(TriangleMesh mesh) {
   }));
 }
 
-void TrackingWorker::set_parameters(const Parameters& parameters, std::function<void()> refuse) {
-  queue_.push(FrameQueue::Command([this, parameters, refuse = std::move(refuse)] {
-    try {
-      const std::vector<std::string> waiting = handler_.set_parameters(parameters);
-      if (!waiting.empty()) {
-        log_.warn(
-            fmt::format("{} cannot change while a mesh is being tracked; the new value waits for the next reset "
-                        "(service ~reset)",
-                        fmt::join(waiting, ", ")));
-      }
-    } catch (const ParameterError& error) {
-      log_.warn(fmt::format("refused: {}", error.what()));
-      refuse();
-    }
-  }));
-}
-
 void TrackingWorker::stop() {
   queue_.close();
   if (thread_.joinable()) thread_.join();
@@ -124,6 +109,8 @@ void TrackingWorker::process(const ReceivedFrame& frame) {
   const bool is_tracked = status.state == TrackerStatus::STARTED || status.state == TrackerStatus::TRACKED;
   publish(frame, std::move(status));
   if (is_tracked) keeper_.note_frame([this] { return state(); });
+  // Whoever goes by what waits learns what became of the rest.
+  if (frame.is_ahead) publish_waiting();
 }
 
 void TrackingWorker::try_to_track(const ReceivedFrame& frame, TrackerStatus& status) {
@@ -204,6 +191,7 @@ void TrackingWorker::forget_run() {
   handler_.reset();
   outputs_.clear();
   last_mesh_.reset();
+  update_waiting_parameters();
   keeper_.forget();
 }
 
@@ -248,7 +236,8 @@ void TrackingWorker::publish_waiting() {
 }
 
 void TrackingWorker::publish(const ReceivedFrame& frame, TrackerStatus status) {
-  last_header_ = frame.header;
+  // A player that is paced by WAITING is to stay where those are that wait.
+  if (!frame.is_ahead) last_header_ = frame.header;
   status.header = frame.header;
   status.queue_length = static_cast<std::uint32_t>(queue_.size());
   status.latency = std::chrono::duration<double>(std::chrono::steady_clock::now() - frame.arrival).count();

@@ -47,9 +47,9 @@ class TrackingWorker {
   /// After the frame in work: sets the mesh to begin with. A run that waits for it starts.
   void set_initial_mesh(TriangleMesh mesh);
 
-  /// After the frame in work: takes over new parameters.
-  /// \param refuse is called, on the worker's thread, if they cannot be taken over.
-  void set_parameters(const Parameters& parameters, std::function<void()> refuse);
+  /// After the frame in work: takes over new parameters. Those that cannot change while a mesh is being tracked wait
+  /// for the next reset.
+  void set_parameters(const Parameters& parameters);
 
   /// After the frame in work: the state of the run.
   /// \throw TrackingError if there is none.
@@ -67,6 +67,10 @@ class TrackingWorker {
   void run_in_turn(const std::function<void()>& task);
   Checkpoint state() const;
   void take_over(const Checkpoint& checkpoint);
+  void load(const Checkpoint& checkpoint);
+  // Parameters that wait for a reset, in words; empty if there are none.
+  std::string waiting_parameters() const;
+  void update_waiting_parameters();
   void show_mesh();
 
   void run();
@@ -96,6 +100,9 @@ class TrackingWorker {
   ThrottledLog log_;
   FrameQueue queue_;
   FrameAdmission admission_;
+  Parameters configured_;  // What the node was configured with, and what dynamic_reconfigure has made of it,
+  Parameters wanted_;      // whether it is in force or waits for a reset.
+  bool estimates_spacing_;
   FrameHandler handler_;
   CheckpointKeeper keeper_;
   TrackedMeshConstPtr last_mesh_;  // Of this run.

@@ -8,6 +8,7 @@
 #include "particle_surface_tracker/core/error.h"
 #include "ros/live/frame_description.h"
 #include "ros/live/tracking_worker.h"
+#include "ros/live/waiting_parameters.h"
 
 namespace particle_surface_tracker {
 
@@ -44,6 +45,7 @@ Checkpoint TrackingWorker::state() const {
   Checkpoint checkpoint;
   handler_.save(checkpoint);
   checkpoint.sections[input_section] = to_bytes(admission_.place());
+  checkpoint.sections[configured_section] = to_bytes(configured_);
   return checkpoint;
 }
 
@@ -51,16 +53,21 @@ void TrackingWorker::take_over(const Checkpoint& checkpoint) {
   const auto section = checkpoint.sections.find(input_section);
   if (section == checkpoint.sections.end()) throw InputError("it is no checkpoint of a node, but of track_bag");
   InputPlace place = input_place_from(section->second);
-  handler_.load(checkpoint);
+  load(checkpoint);
   admission_.go_on(std::move(place));
   diagnostics_.note_reset();
   outputs_.clear();
   show_mesh();
+  update_waiting_parameters();
   log_.info(
       fmt::format("goes on from a checkpoint, after the frame of stamp {}.{:09}: {} vertices, {} triangles. Frames "
                   "up to that one are skipped if they come again; ~reset begins anew",
                   last_mesh_->header.stamp.sec, last_mesh_->header.stamp.nsec, last_mesh_->ids.size(),
                   last_mesh_->triangles.size() / 3));
+  const std::string waiting = waiting_parameters();
+  if (waiting.empty()) return;
+  log_.warn(fmt::format(
+      "goes on with the values of the checkpoint; others wait for the next reset (service ~reset): {}", waiting));
 }
 
 void TrackingWorker::show_mesh() {
