@@ -9,7 +9,7 @@
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
 #include "ros/live/frame_description.h"
-#include "ros/live/particle_attributes.h"
+#include "ros/particle_attributes.h"
 
 namespace particle_surface_tracker {
 
