@@ -1,6 +1,7 @@
 #include "particle_surface_tracker/core/mesh_measures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -16,7 +17,17 @@ constexpr std::size_t kTrianglesPerChunk = 8192;
 struct ChunkSums {
   double six_volumes = 0.0;
   double double_areas = 0.0;
+  double smallest_squared_sine = 1.0;
 };
+
+/// Of the smallest angle of a triangle, which lies between its two longest edges: |ab × ac| is the product of their
+/// lengths and this sine. Exact where it matters, for small angles, which a cosine does not tell from 0.
+double squared_sine(const Vec3d& edge_ab, const Vec3d& edge_ac, const Vec3d& normal) {
+  const double ab = edge_ab.squaredNorm(), ac = edge_ac.squaredNorm(), bc = (edge_ac - edge_ab).squaredNorm();
+  const double longest = std::max({ab, ac, bc});
+  const double middle = std::max(std::min(ab, ac), std::min(std::max(ab, ac), bc));
+  return middle > 0.0 ? normal.squaredNorm() / middle / longest : 0.0;
+}
 
 ChunkSums sum_chunk(const std::vector<Vec3f>& positions, const Triangle* begin, const Triangle* end,
                     const Vec3d& origin) {
@@ -28,6 +39,7 @@ ChunkSums sum_chunk(const std::vector<Vec3f>& positions, const Triangle* begin, 
     const Vec3d normal = edge_ab.cross(edge_ac);
     sums.six_volumes += normal.dot(a - origin);
     sums.double_areas += normal.norm();
+    sums.smallest_squared_sine = std::min(sums.smallest_squared_sine, squared_sine(edge_ab, edge_ac, normal));
   }
   return sums;
 }
@@ -87,10 +99,13 @@ MeshMeasures measure_mesh(const std::vector<Vec3f>& positions, const std::vector
     const std::size_t end = std::min(begin + kTrianglesPerChunk, triangles.size());
     sums[chunk] = sum_chunk(positions, triangles.data() + begin, triangles.data() + end, origin);
   });
+  double smallest_squared_sine = 1.0;
   for (const ChunkSums& chunk : sums) {
+    smallest_squared_sine = std::min(smallest_squared_sine, chunk.smallest_squared_sine);
     measures.volume += chunk.six_volumes / 6.0;
     measures.area += chunk.double_areas / 2.0;
   }
+  measures.smallest_angle = std::asin(std::sqrt(smallest_squared_sine)) * 180.0 / M_PI;
 
   measures.components = connect(positions.size(), triangles).trees;
   // χ = V − E + F with E = 3/2 F on a closed mesh.

@@ -46,10 +46,12 @@ std::vector<Column> columns_of(const TriangleMesh& mesh) {
 std::string property_name(const VertexAttribute& attribute, std::size_t component) {
   static constexpr const char* color_names[] = {"red", "green", "blue", "alpha"};
   static constexpr const char* texcoord_names[] = {"s", "t"};
+  static constexpr const char* normal_names[] = {"nx", "ny", "nz"};
   if (attribute.name == TriangleMesh::color_name && component < std::size(color_names)) return color_names[component];
   if (attribute.name == TriangleMesh::texcoord_name && component < std::size(texcoord_names)) {
     return texcoord_names[component];
   }
+  if (attribute.name == normal_attribute && component < std::size(normal_names)) return normal_names[component];
   return attribute.components == 1 ? attribute.name : fmt::format("{}_{}", attribute.name, component);
 }
 

@@ -59,7 +59,10 @@ Json topology_of(const FrameReport::Topology& topology) {
           {"removed_components", topology.removed_components},
           {"new_vertices", topology.new_vertices},
           {"retries", topology.retries},
-          {"fallbacks", topology.fallbacks}};
+          {"fallbacks", topology.fallbacks},
+          {"splits", topology.splits},
+          {"merges", topology.merges},
+          {"gone", topology.gone}};
 }
 
 Json upkeep_of(const FrameReport::Upkeep& upkeep) {
@@ -69,6 +72,7 @@ Json upkeep_of(const FrameReport::Upkeep& upkeep) {
 
 Json body_of(const FrameReport& report) {
   Json json;
+  json["missing_frames"] = report.missing_frames;
   json["particles"] = report.particles;
   json["vertices"] = report.vertices;
   json["triangles"] = report.triangles;
@@ -78,6 +82,7 @@ Json body_of(const FrameReport& report) {
   json["implicit_volume"] = report.implicit_volume;
   json["area"] = report.area;
   json["max_abs_delta"] = report.max_abs_delta;
+  json["smallest_angle"] = report.smallest_angle;
   json["flagged_vertices"] = report.flagged_vertices;
   json["original_vertices_alive"] = report.original_vertices_alive;
   json["times"] = times_of(report);

@@ -6,6 +6,7 @@
 
 #include "color_bytes.h"
 #include "file_bytes.h"
+#include "particle_surface_tracker/io/mesh_writer.h"
 #include "vtp_arrays.h"
 
 // VTK itself would bring the development files of half a desktop for this page.
@@ -26,7 +27,9 @@ void append_attribute(std::string& xml, const VertexAttribute& attribute) {
 }
 
 void append_point_data(std::string& xml, const TriangleMesh& mesh) {
-  xml += "<PointData Scalars=\"delta\">\n";
+  const bool has_normals = mesh.attributes().find(normal_attribute) != VertexAttributes::none;
+  xml += fmt::format("<PointData Scalars=\"delta\"{}>\n",
+                     has_normals ? fmt::format(" Normals=\"{}\"", normal_attribute) : "");
   for (std::size_t i = 0; i < mesh.attributes().count(); ++i) {
     const VertexAttribute& attribute = mesh.attributes()[i];
     if (attribute.use == AttributeUse::kOutput) append_attribute(xml, attribute);

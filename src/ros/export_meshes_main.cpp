@@ -96,7 +96,7 @@ std::uint64_t export_bag(const Options& options) {
     if (index < options.first || index > options.last) continue;
     try {
       const TrackedMesh message = message_in(instance);
-      output.write(to_triangle_mesh(message), index, to_nanoseconds(message.header.stamp));
+      output.write(to_mesh_with_fields(message), index, to_nanoseconds(message.header.stamp));
     } catch (const OutputError&) {
       throw;
     } catch (const Error& error) {

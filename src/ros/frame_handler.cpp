@@ -19,6 +19,9 @@ namespace particle_surface_tracker {
 
 namespace {
 
+/// How near to the mesh a piece is that has joined it and not vanished [r].
+constexpr double kReachOfMerges = 2.0;
+
 void check(Parameters parameters, bool estimate_spacing) {
   // The other parameters can be judged before the spacing is known.
   if (estimate_spacing) parameters.particle_spacing = 1.0;
@@ -42,6 +45,8 @@ FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uin
   VertexPlaces places;
   if (!is_first) places = {tracker_->mesh().ids(), tracker_->mesh().positions()};
   FrameReport report = is_first ? start(prepared.particles, frame_index) : advance(std::move(prepared), frame_index);
+  events_.clear();
+  if (!is_first) find_events(places, report);
   *before_ = std::move(places);
   seconds_ = is_first ? 0.0 : 1e-9 * static_cast<double>(stamp_ns - to_nanoseconds(header_.stamp));
   header_ = cloud.header;
@@ -68,6 +73,20 @@ FrameReport FrameHandler::advance(PreparedFrame prepared, std::uint64_t frame_in
   FrameReport report = tracker_->advance(prepared.particles, frame_index, std::move(prepared.surface));
   report.times.insert(report.times.begin(), prepared.times.begin(), prepared.times.end());
   return report;
+}
+
+void FrameHandler::find_events(const VertexPlaces& before, FrameReport& report) {
+  FrameReport::Topology& topology = report.topology;
+  if (topology.remeshed_cells + topology.removed_components == 0) return;
+  const TriangleMesh& mesh = tracker_->mesh();
+  events_ =
+      find_topology_events({before.ids, before.positions, triangles_}, {mesh.ids(), mesh.positions(), mesh.triangles()},
+                           kReachOfMerges * tracker_->parameters().particle_spacing);
+  for (const TopologyEvent& event : events_) {
+    ++(event.kind == TopologyEvent::Kind::kSplit   ? topology.splits
+       : event.kind == TopologyEvent::Kind::kMerge ? topology.merges
+                                                   : topology.gone);
+  }
 }
 
 void FrameHandler::look_ahead(const sensor_msgs::PointCloud2ConstPtr& cloud) {
@@ -127,6 +146,7 @@ void FrameHandler::reset() {
   ahead_.reset();
   tracker_.reset();
   *before_ = {};
+  events_.clear();
   // No triangles: the next mesh gets a new version, for whoever knows those of this one.
   triangles_.clear();
 }

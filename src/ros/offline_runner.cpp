@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,27 +9,24 @@
 
 #include <fmt/format.h>
 
+#include "flat_arrays.h"
 #include "frame_reader.h"
+#include "particle_attributes.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/frame_check.h"
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "particle_surface_tracker/ros/frame_handler.h"
 #include "particle_surface_tracker/ros/particle_bag.h"
 #include "run_checkpoint.h"
+#include "run_facts.h"
+#include "run_input.h"
 #include "run_messages.h"
 #include "run_outputs.h"
 #include "stage_table.h"
+#include "stopwatch.h"
 
 namespace particle_surface_tracker {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 class OfflineRun {
  public:
@@ -55,7 +51,8 @@ class OfflineRun {
       const std::uint64_t frame = next_++;
       run_frame(frame);
       summary_.interrupted = stop && frame != last_;
-      messages_.show_progress(summary_.tracked + summary_.skipped, last_ - begin + 1, frame);
+      messages_.show_progress(summary_.tracked + summary_.skipped, last_ - begin + 1, frame,
+                              facts_.real_time_factor(elapsed_.seconds()));
       if (checkpoint_due()) save_checkpoint(outputs_->settle());
     }
     messages_.end_progress();
@@ -92,6 +89,7 @@ class OfflineRun {
       handler.parameters = checkpoint.tracker.parameters;
       handler_.emplace(std::move(handler));
       handler_->load(checkpoint);
+      input_.load(checkpoint);
       next_ = progress.next;
       if (next_ > last_ + 1) {
         throw ParameterError(
@@ -157,11 +155,33 @@ class OfflineRun {
     }
     for (const FrameReport::StageTime& time : report.times) times_.add(time.stage, time.seconds);
     if (options_.check) check(report);
+    const std::string trouble = input_.judge(cloud->header, report);
     for (const std::string& warning : report.warnings) messages_.warn(fmt::format("frame {}: {}", frame, warning));
+    if (!trouble.empty()) say_once(trouble, report);
+    facts_.note(report);
+    std::vector<InterpolatedField> fields = interpolated(*cloud, report);
     const Stopwatch writing;
-    outputs_->write(frame, cloud, *handler_, report);
+    outputs_->write(frame, cloud, *handler_, report, std::move(fields));
     writing_seconds_ += writing.seconds();
     ++summary_.tracked;
+  }
+
+  // What may be true of every frame, said in the first; the report has it in all.
+  void say_once(const std::string& text, FrameReport& report) {
+    messages_.warn_once(report.frame, text);
+    report.warnings.push_back(text);
+  }
+
+  std::vector<InterpolatedField> interpolated(const sensor_msgs::PointCloud2& cloud, FrameReport& report) {
+    if (options_.interpolate.empty()) return {};
+    const Stopwatch interpolating;
+    const ParticleAttributes attributes = read_particle_attributes(cloud, options_.interpolate);
+    for (const std::string& missing : attributes.missing) say_once(missing, report);
+    const Tracker& tracker = handler_->tracker();
+    auto fields =
+        interpolate(attributes, flat<float>(tracker.mesh().positions()), tracker.parameters().particle_spacing);
+    times_.add("interpolation", interpolating.seconds());
+    return fields;
   }
 
   // Before anything is written, so that no broken mesh gets out.
@@ -182,6 +202,7 @@ class OfflineRun {
     const Stopwatch saving;
     Checkpoint checkpoint;
     handler_->save(checkpoint);
+    input_.save(checkpoint);
     checkpoint.sections[run_section] = to_bytes(RunProgress{options_.first, next_, outputs});
     write_checkpoint(options_.checkpoint, checkpoint);
     times_.add("checkpoints", saving.seconds());
@@ -205,6 +226,7 @@ class OfflineRun {
 
   template <typename Reason>
   void skip(std::uint64_t frame, const Reason& reason) {
+    input_.pass_over();
     outputs_->write_error(frame, reason.what());
     if (!handler_->started()) {
       // The mesh belongs to this frame and no other, so there is nothing to go on with.
@@ -218,10 +240,13 @@ class OfflineRun {
     times_.add("writing", writing_seconds_);
     times_.print(out_, summary_.tracked);
     const double elapsed = elapsed_.seconds();
+    const std::optional<double> factor = facts_.real_time_factor(elapsed);
     out_ << fmt::format(
-        "{} frames tracked in {:.1f} s ({:.2f} frames/s), {:.1f} s of processor time, {:.0f} MB of memory\n",
-        summary_.tracked, elapsed, static_cast<double>(summary_.tracked) / elapsed, process_cpu_seconds(),
+        "{} frames tracked in {:.1f} s ({:.2f} frames/s{}), {:.1f} s of processor time, {:.0f} MB of memory\n",
+        summary_.tracked, elapsed, static_cast<double>(summary_.tracked) / elapsed,
+        factor ? fmt::format(", {:.2g} x real time", *factor) : "", process_cpu_seconds(),
         1e-6 * static_cast<double>(process_peak_memory()));
+    facts_.print(out_);
     if (options_.check && summary_.tracked != 0) {
       out_ << fmt::format("checked: all {} meshes are closed, manifold and oriented\n", summary_.tracked);
     }
@@ -253,6 +278,8 @@ class OfflineRun {
   std::uint64_t last_ = 0;
   std::optional<RunOutputs> outputs_;
   std::optional<FrameHandler> handler_;
+  RunInput input_;
+  RunFacts facts_;
   StageTable times_;
   double writing_seconds_ = 0.0;  // Kept apart to stand last in the table.
   OfflineSummary summary_;

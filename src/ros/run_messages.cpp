@@ -30,12 +30,18 @@ void RunMessages::warn(const std::string& text) {
   err_ << "track_bag: warning: " << one_line(text) << '\n' << std::flush;
 }
 
-void RunMessages::show_progress(std::size_t done, std::size_t total, std::uint64_t frame) {
+void RunMessages::warn_once(std::uint64_t frame, const std::string& text) {
+  if (said_.insert(text).second) warn(fmt::format("frame {}: {}; not said again", frame, text));
+}
+
+void RunMessages::show_progress(std::size_t done, std::size_t total, std::uint64_t frame,
+                                std::optional<double> real_time_factor) {
   if (!progress_ || done == 0) return;
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double rate = static_cast<double>(done) / std::max(elapsed, 1e-9);
+  const std::string factor = real_time_factor ? fmt::format(", {:.2g} x real time", *real_time_factor) : "";
   err_ << erase_line
-       << fmt::format("frame {}: {}/{}, {:.1f} frames/s, {} left", frame, done, total, rate,
+       << fmt::format("frame {}: {}/{}, {:.1f} frames/s{}, {} left", frame, done, total, rate, factor,
                       minutes_and_seconds(static_cast<double>(total - done) / rate))
        << std::flush;
   line_open_ = true;

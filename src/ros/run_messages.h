@@ -2,7 +2,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <ostream>
+#include <set>
 #include <string>
 
 namespace particle_surface_tracker {
@@ -16,7 +19,10 @@ class RunMessages {
   ~RunMessages();
 
   void warn(const std::string& text);
-  void show_progress(std::size_t done, std::size_t total, std::uint64_t frame);
+  /// Says what may be true of every frame in the first one only.
+  void warn_once(std::uint64_t frame, const std::string& text);
+  /// \param real_time_factor as RunFacts::real_time_factor().
+  void show_progress(std::size_t done, std::size_t total, std::uint64_t frame, std::optional<double> real_time_factor);
   void end_progress();
 
  private:
@@ -24,6 +30,7 @@ class RunMessages {
   bool warnings_;
   bool progress_;
   bool line_open_ = false;
+  std::set<std::string> said_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

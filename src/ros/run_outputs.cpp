@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "particle_surface_tracker/core/error.h"
+#include "particle_surface_tracker/ros/mesh_conversion.h"
 #include "particle_surface_tracker/ros/time_conversion.h"
 
 namespace particle_surface_tracker {
@@ -67,17 +68,23 @@ bool RunOutputs::wants_cells(std::uint64_t frame) const {
 }
 
 void RunOutputs::write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
-                       const FrameReport& report) {
+                       const FrameReport& report, std::vector<InterpolatedField> interpolated) {
   const std::int64_t stamp = to_nanoseconds(cloud->header.stamp);
-  if (meshes_) meshes_->write(handler.tracker().mesh(), frame, stamp);
+  const bool has_fields = !interpolated.empty();
+  TrackedMesh message;
+  if (has_fields || bag_ || parts_) {
+    message = handler.message();
+    message.interpolated = std::move(interpolated);
+  }
+  if (meshes_) meshes_->write(has_fields ? to_mesh_with_fields(message) : handler.tracker().mesh(), frame, stamp);
   if (surfaces_) {
     const SurfaceTriangulation& surface = handler.tracker().implicit_surface()->triangulation;
     surfaces_->write(TriangleMesh(surface.vertices, surface.triangles), frame, stamp);
   }
   if (fields_) fields_->write(*handler.tracker().implicit_surface(), frame);
   if (wants_cells(frame)) cells_->write(*handler.tracker().topology_cells(), frame);
-  if (bag_) bag_->write(cloud, handler.message());
-  if (parts_) parts_->write(cloud, handler.message());
+  if (bag_) bag_->write(cloud, message);
+  if (parts_) parts_->write(cloud, message);
   if (report_) report_->write(report);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <particle_surface_tracker/InterpolatedField.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "bag_parts.h"
@@ -32,9 +33,10 @@ class RunOutputs {
   /// Whether the cells of a frame are to be recorded for write().
   bool wants_cells(std::uint64_t frame) const;
 
+  /// \param interpolated fields that mesh files and bag have beside those of the mesh.
   /// \throw OutputError if something cannot be written.
   void write(std::uint64_t frame, const sensor_msgs::PointCloud2ConstPtr& cloud, const FrameHandler& handler,
-             const FrameReport& report);
+             const FrameReport& report, std::vector<InterpolatedField> interpolated);
   void write_error(std::uint64_t frame, const std::string& error);
 
   /// Completes all files as far as they have got, so that a run can go on from here.

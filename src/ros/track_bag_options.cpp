@@ -95,6 +95,11 @@ void add_outputs(CLI::App& app, OfflineOptions& options, RawOptions& raw) {
       ->type_name("ply|obj|vtp|glb|none")
       ->capture_default_str()
       ->check(CLI::IsMember(formats).description(""));
+  app.add_option("--interpolate", options.interpolate,
+                 "Fields of the particles that bag and mesh files are to have at the vertices: velocity (of vx vy vz), "
+                 "rgb, rgba, or the name of a scalar field")
+      ->type_name("FIELD...")
+      ->delimiter(',');
   app.add_option("--surface", options.surface, "Folder for the implicit surface of every frame, as PLY")
       ->type_name("DIR");
   app.add_option("--vdb", options.vdb, "Folder for the implicit function phi of every frame, as OpenVDB level set")
@@ -169,7 +174,17 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> read_frames(const std::stri
   return ranges;
 }
 
+std::vector<std::string> each_once(const std::vector<std::string>& names) {
+  std::vector<std::string> result;
+  for (const std::string& name : names) {
+    if (name.empty()) throw ParameterError("--interpolate: a field without a name");
+    if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
+  }
+  return result;
+}
+
 void resolve(const RawOptions& raw, OfflineOptions& options) {
+  options.interpolate = each_once(options.interpolate);
   if (raw.mesh != "implicit") options.mesh = raw.mesh;
   options.format = formats.at(raw.format);
   if (!raw.config.empty()) read_parameter_file(raw.config, options.parameters);

@@ -29,6 +29,7 @@ void describe_frame(FrameReport& report, const TrackedFrame& tracked, const Impl
   report.genus = mesh.genus;
   report.volume = mesh.volume;
   report.area = mesh.area;
+  report.smallest_angle = mesh.smallest_angle;
   if (surface != nullptr && !frame.empty()) {
     const SurfaceTriangulation& isosurface = surface->triangulation;
     report.implicit_volume = measure_mesh(isosurface.vertices, isosurface.triangles).volume;

@@ -38,6 +38,25 @@ TEST(MeasureMesh, SphereComesCloseToItsFormulas) {
   EXPECT_NEAR(sphere.area / (4.0 * kPi * 4.0), 1.0, 1e-3);
 }
 
+double smallest_angle(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  return measure_mesh({a, b, c}, {{0, 1, 2}}).smallest_angle;
+}
+
+TEST(MeasureMesh, SmallestAngleIsThatOfTheWorstTriangle) {
+  EXPECT_NEAR(measure(test::make_box({0, 0, 0}, {1, 1, 1})).smallest_angle, 45.0, 1e-9);
+  // Whichever corner it lies at.
+  const Vec3f far(1, 0, 0), near(0, 0, 0), up(0, std::tan(3.0F * static_cast<float>(kPi) / 180.0F), 0);
+  for (const double angle : {smallest_angle(far, near, up), smallest_angle(near, up, far),
+                             smallest_angle(up, far, near), smallest_angle(far, up, near)}) {
+    EXPECT_NEAR(angle, 3.0, 1e-5);
+  }
+  // A needle whose cosine is 1 in doubles.
+  EXPECT_NEAR(smallest_angle(near, far, {1, 1e-9F, 0}) / (1e-9 * 180.0 / kPi), 1.0, 1e-6);
+  EXPECT_EQ(smallest_angle(near, far, {2, 0, 0}), 0.0);
+  EXPECT_EQ(smallest_angle(far, far, far), 0.0);
+  EXPECT_NEAR(smallest_angle(near, {1, 0, 0}, {0.5F, std::sqrt(0.75F), 0}), 60.0, 1e-5);
+}
+
 TEST(MeasureMesh, TurnedMeshHasNegativeVolume) {
   EXPECT_DOUBLE_EQ(measure(test::turned(test::make_box({0, 0, 0}, {1, 1, 1}))).volume, -1.0);
 }
@@ -56,6 +75,7 @@ TEST(MeasureMesh, NothingIsZero) {
   EXPECT_EQ(nothing.genus, 0);
   EXPECT_EQ(nothing.volume, 0.0);
   EXPECT_EQ(nothing.area, 0.0);
+  EXPECT_TRUE(std::isnan(nothing.smallest_angle));
 }
 
 TEST(MeasureMesh, SameBitsForAnyNumberOfThreads) {
@@ -65,6 +85,7 @@ TEST(MeasureMesh, SameBitsForAnyNumberOfThreads) {
   const MeshMeasures serial = measure(mesh);
   EXPECT_EQ(parallel.volume, serial.volume);
   EXPECT_EQ(parallel.area, serial.area);
+  EXPECT_EQ(parallel.smallest_angle, serial.smallest_angle);
 }
 
 TEST(VertexComponents, NumbersComponentsByTheirLowestVertex) {

@@ -24,8 +24,10 @@ std::string default_of(const ParameterInfo& info) {
 std::string range_of(const ParameterInfo& info) {
   if (info.type == ParameterInfo::Type::kChoice) return fmt::format("`{}`", fmt::join(info.choices, "`, `"));
   const bool above_zero = info.minimum == std::numeric_limits<double>::min();
-  return above_zero ? fmt::format("above 0, at most {}", info.maximum)
-                    : fmt::format("{} to {}", info.minimum, info.maximum);
+  if (above_zero) return fmt::format("above 0, at most {}", info.maximum);
+  const std::string slider =
+      info.slider_maximum < info.maximum ? fmt::format("; slider to {}", info.slider_maximum) : "";
+  return fmt::format("{} to {}{}", info.minimum, info.maximum, slider);
 }
 
 /// A bar would end the cell.

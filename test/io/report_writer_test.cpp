@@ -32,6 +32,11 @@ FrameReport example() {
   report.implicit_volume = 0.11;
   report.area = 2.5;
   report.max_abs_delta = 1e-3;
+  report.smallest_angle = 12.5;
+  report.missing_frames = 8;
+  report.topology.splits = 9;
+  report.topology.merges = 10;
+  report.topology.gone = 11;
   report.flagged_vertices = 5;
   report.flagged_cells = 6;
   report.unreached_vertices = 7;
@@ -59,6 +64,7 @@ TEST(ReportWriter, LineHoldsEverythingInOrder) {
   for (const auto& item : json.items()) names.push_back(item.key());
   EXPECT_EQ(names, (std::vector<std::string>{"frame",
                                              "stamp",
+                                             "missing_frames",
                                              "particles",
                                              "vertices",
                                              "triangles",
@@ -68,6 +74,7 @@ TEST(ReportWriter, LineHoldsEverythingInOrder) {
                                              "implicit_volume",
                                              "area",
                                              "max_abs_delta",
+                                             "smallest_angle",
                                              "flagged_vertices",
                                              "original_vertices_alive",
                                              "times",
@@ -91,6 +98,11 @@ TEST(ReportWriter, LineHoldsEverythingInOrder) {
   EXPECT_EQ(json["implicit_volume"].get<double>(), 0.11);
   EXPECT_EQ(json["area"].get<double>(), 2.5);
   EXPECT_EQ(json["max_abs_delta"].get<double>(), 1e-3);
+  EXPECT_EQ(json["smallest_angle"].get<double>(), 12.5);
+  EXPECT_EQ(json["missing_frames"], 8);
+  EXPECT_EQ(json["topology"]["splits"], 9);
+  EXPECT_EQ(json["topology"]["merges"], 10);
+  EXPECT_EQ(json["topology"]["gone"], 11);
   EXPECT_EQ(json["flagged_vertices"], 5);
   EXPECT_EQ(json["original_vertices_alive"], 499);
   EXPECT_EQ(json["times"].dump(), R"({"implicit surface":0.25,"advection":0.125,"total":0.5})");
@@ -125,7 +137,7 @@ TEST(ReportWriter, ThePageTellsEveryField) {
 
 TEST(ReportWriter, StampIsExactToTheNanosecond) {
   FrameReport report = example();
-  EXPECT_EQ(report_line(report).rfind("{\"frame\":12,\"stamp\":1709210000.123456789,\"particles\"", 0), 0u);
+  EXPECT_EQ(report_line(report).rfind("{\"frame\":12,\"stamp\":1709210000.123456789,\"missing_frames\"", 0), 0u);
   report.stamp_ns = 5;
   EXPECT_NE(report_line(report).find("\"stamp\":0.000000005,"), std::string::npos);
   report.stamp_ns = -1500000000;

@@ -61,6 +61,17 @@ TEST(Config, DefaultsAreThoseOfTheLibrary) {
   }
 }
 
+TEST(Config, ASliderReachesTheDefaultAndEndsWithinTheRange) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type == Type::kChoice || info.name == "particle_spacing") continue;
+    EXPECT_LE(std::stod(get_parameter(Parameters(), info.name)), info.slider_maximum) << info.name;
+    EXPECT_LE(info.slider_maximum, info.maximum) << info.name;
+    EXPECT_LE(info.slider_maximum, info.unit == "deg" ? 180.0 : 500.0) << info.name << ": of no use as a slider";
+    Parameters parameters;
+    EXPECT_NO_THROW(set_parameter(parameters, info.name, fmt::format("{}", info.maximum))) << info.name;
+  }
+}
+
 TEST(Config, EveryParameterIsInAGroup) {
   std::size_t grouped = 0;
   for (const auto& group : TrackerConfig::__getGroupDescriptions__()) {

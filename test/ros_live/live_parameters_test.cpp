@@ -35,8 +35,20 @@ TEST_F(LiveParameters, ParametersOfTheStartAreShownWithTheirRanges) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.name == "particle_spacing" || info.type != ParameterInfo::Type::kReal) continue;
     EXPECT_EQ(value_of<double>(description->min, info.name), info.minimum) << info.name;
-    EXPECT_EQ(value_of<double>(description->max, info.name), info.maximum) << info.name;
+    EXPECT_EQ(value_of<double>(description->max, info.name), info.slider_maximum) << info.name;
   }
+}
+
+TEST_F(LiveParameters, ValuesBeyondTheSlidersAreShownAndTakenAsTheyAre) {
+  const auto node = load({{"tau", "50.0"}});
+  Reconfigure reconfigure(node->name());
+  EXPECT_EQ(value_of<double>(*reconfigure.updates().wait_for(1).back(), "tau"), 50.0);
+  node->answer(0);
+  // Another parameter changes; this one stays.
+  EXPECT_EQ(value_of<double>(reconfigure.set("epsilon", 0.5), "tau"), 50.0);
+  EXPECT_EQ(value_of<double>(reconfigure.set("max_displacement", 1e5), "max_displacement"), 1e5);
+  EXPECT_EQ(value_of<int>(reconfigure.set("projection_max_steps", 5000), "projection_max_steps"), 5000);
+  EXPECT_EQ(value_of<double>(reconfigure.set("tau", 60.0), "tau"), 60.0);
 }
 
 TEST_F(LiveParameters, ReconfiguredValuesAreAppliedBetweenFrames) {

@@ -48,9 +48,14 @@ TEST_F(MeshSaver, WritesInterpolatedFields) {
   mesh.interpolated[0].values.assign(mesh.ids.size(), 300.0f);
   mesh.interpolated[1] = mesh.interpolated[0];
   mesh.interpolated[1].name = "delta";  // The mesh has a δ of its own.
+  mesh.normals.assign(3 * mesh.ids.size(), 1.0f);
+  mesh.velocities.assign(3 * mesh.ids.size(), 2.0f);
   const std::string text = read_file(save_mesh(folder_, "ball.ply", mesh));
   EXPECT_NE(text.find("property float temperature"), std::string::npos);
   EXPECT_EQ(text.find("property float delta"), text.rfind("property float delta"));
+  for (const char* name : {"particle_delta", "nx", "vertex_velocity_2"}) {
+    EXPECT_NE(text.find(std::string("property float ") + name), std::string::npos) << name;
+  }
 }
 
 TEST_F(MeshSaver, RefusesWhatIsNotBelowTheFolder) {

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as xml
 import genpy
 import numpy as np
 import rosbag
-from particle_surface_tracker.msg import TrackedMesh
+from particle_surface_tracker.msg import InterpolatedField, TrackedMesh
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader, vtkOBJReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
@@ -22,6 +22,8 @@ CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], np.float32)
 TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.uint32)
 COLORS = np.array([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1], [0.4, 0.6, 0.8, 1]], np.float32)
 TEXCOORDS = np.array([[0, 0], [1, 0], [0, 1], [0.25, 0.75]], np.float32)
+NORMALS = np.array([[-3**-0.5] * 3, [1, 0, 0], [0, 1, 0], [0, 0, 1]], np.float32)
+VELOCITIES = np.arange(12, dtype=np.float32).reshape(4, 3)
 
 
 def tetrahedron(frame):
@@ -33,6 +35,15 @@ def tetrahedron(frame):
     message.ids = [7, 8, 9, 2**32 - 2]
     message.colors = COLORS.ravel().tolist()
     message.texcoords = TEXCOORDS.ravel().tolist()
+    message.normals = NORMALS.ravel().tolist()
+    message.velocities = VELOCITIES.ravel().tolist()
+    message.interpolated = [
+        InterpolatedField("velocity", 3, (-VELOCITIES).ravel().tolist()),
+        InterpolatedField("temperature", 1, [300, 310, 320, np.nan]),
+        InterpolatedField("rgb", 4, COLORS[::-1].ravel().tolist()),
+        InterpolatedField("delta", 1, [1, 2, 3, 4]),  # The mesh has a delta of its own.
+        InterpolatedField('a "b"\n<c>', 1, [5, 6, 7, 8]),
+    ]
     return message
 
 
@@ -66,6 +77,14 @@ class ExportMeshes(ScriptTest):
             np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("delta")), [0.5, -0.25, 0.125, 0])
             np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("color")), np.round(255 * COLORS).astype(np.uint8))
             np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("texcoord")), TEXCOORDS)
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetNormals()), NORMALS)
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("vertex_velocity")), VELOCITIES)
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("velocity")), -VELOCITIES)
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("temperature")), [300, 310, 320, np.nan])
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("rgb")), COLORS[::-1])
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("particle_delta")), [1, 2, 3, 4])
+            np.testing.assert_array_equal(vtk_to_numpy(arrays.GetArray("a__b___c_")), [5, 6, 7, 8])
+            self.assertEqual(arrays.GetNumberOfArrays(), 11)
 
     def test_vtp_is_xml_throughout(self):
         self.export("--format", "vtp")
@@ -109,6 +128,28 @@ class ExportMeshes(ScriptTest):
             data = self.read(reader, f"frame_000002.{name}")
             np.testing.assert_array_equal(vtk_to_numpy(data.GetPoints().GetData()), CORNERS + 2)
             self.assertEqual(data.GetNumberOfPolys(), 4)
+
+    def test_ply_has_the_fields(self):
+        self.export("--last", "0")
+        header, _, data = (self.out / "frame_000000.ply").read_bytes().partition(b"end_header\n")
+        words = [line.split() for line in header.decode().splitlines() if line.startswith("property") and "list" not in line]
+        types = {"float": "<f4", "uint": "<u4", "uchar": "u1"}
+        vertices = np.frombuffer(data, np.dtype([(name, types[kind]) for _, kind, name in words]), count=4)
+        for name, values in (("nx ny nz", NORMALS), ("vertex_velocity_0 vertex_velocity_1 vertex_velocity_2", VELOCITIES),
+                             ("velocity_0 velocity_1 velocity_2", -VELOCITIES), ("particle_delta", [[1], [2], [3], [4]])):
+            np.testing.assert_array_equal(np.stack([vertices[part] for part in name.split()], axis=1), values)
+        np.testing.assert_array_equal(vertices["delta"], [0.5, -0.25, 0.125, 0])
+
+    def test_fields_that_do_not_fit_are_bad_input(self):
+        for frame, change in enumerate([lambda message: message.velocities.pop(), lambda message: message.normals.pop(),
+                                        lambda message: message.interpolated[1].values.pop(),
+                                        lambda message: setattr(message.interpolated[1], "components", 0)]):
+            message = tetrahedron(0)
+            change(message)
+            with rosbag.Bag(str(self.bag), "w") as bag:
+                bag.write("/tracked_mesh", message, message.header.stamp)
+            _, errors = self.export(exit_code=2)
+            self.assert_one_line(errors, "message 0 of topic /tracked_mesh", "temperature" if frame > 1 else "")
 
     def test_vdb_is_gamma_on_the_lattice_of_the_spacing(self):
         self.export("--format", "vdb", "--spacing", "0.2", "--first", "1", "--last", "2")

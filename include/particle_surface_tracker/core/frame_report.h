@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@ namespace particle_surface_tracker {
 struct FrameReport {
   std::uint64_t frame = 0;    ///< Index of the frame in its sequence.
   std::int64_t stamp_ns = 0;  ///< [ns].
+  /// Frames that are missing between the frame before and this one; from who reads the frames.
+  std::uint64_t missing_frames = 0;
 
   std::size_t particles = 0;
   std::size_t particles_born = 0;  ///< Ids that the frame before did not have, teleported particles included.
@@ -25,6 +28,8 @@ struct FrameReport {
   double implicit_volume = 0.0;  ///< Enclosed by φ = 0 [m³].
   double area = 0.0;             ///< Of the mesh [m²].
   double max_abs_delta = 0.0;    ///< Largest |δ| [m].
+  /// Of the triangles of the mesh [deg]; not a number where it has none.
+  double smallest_angle = std::numeric_limits<double>::quiet_NaN();
 
   std::size_t flagged_vertices = 0;         ///< Moved by more than τ and put back (Sec. 5.3).
   std::size_t flagged_cells = 0;            ///< Cells of Γ flagged for topology matching.
@@ -50,6 +55,10 @@ struct FrameReport {
     std::size_t new_vertices = 0;         ///< Made by re-meshing.
     std::size_t retries = 0;    ///< How often the re-meshed region had to grow because it could not be filled.
     std::size_t fallbacks = 0;  ///< Of these, how often a whole component, or everything, was made anew.
+    // As find_topology_events() tells them; from FrameHandler, which has the mesh of the frame before.
+    std::size_t splits = 0;  ///< Pieces that came off others.
+    std::size_t merges = 0;  ///< Pieces that joined others.
+    std::size_t gone = 0;    ///< Pieces that vanished.
   };
   Topology topology;
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "particle_surface_tracker/core/types.h"
@@ -14,6 +15,8 @@ struct MeshMeasures {
   std::int64_t genus = 0;      ///< Sum over the components: components − χ/2.
   double volume = 0.0;         ///< Signed, by the divergence theorem [m³].
   double area = 0.0;           ///< [m²].
+  /// Of all triangles [deg], at most 60; 0 where one has no area. Not a number without triangles.
+  double smallest_angle = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Measures a mesh whose every vertex is used by a triangle.

@@ -120,6 +120,7 @@ struct ParameterInfo {
   Type type = Type::kReal;
   double minimum = 0.0;                ///< Smallest valid value (kReal, kInteger).
   double maximum = 0.0;                ///< Largest valid value (kReal, kInteger).
+  double slider_maximum = 0.0;         ///< Where a slider may end: larger values are valid, but rarely of use.
   std::vector<std::string> choices{};  ///< Valid values (kChoice).
   bool needs_reset = false;            ///< True where a new value cannot be applied while a mesh is being tracked.
 };

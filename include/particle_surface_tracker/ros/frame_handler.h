@@ -12,6 +12,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "particle_surface_tracker/core/frame_report.h"
+#include "particle_surface_tracker/core/topology_events.h"
 #include "particle_surface_tracker/io/checkpoint.h"
 #include "particle_surface_tracker/tracker/tracker.h"
 
@@ -95,6 +96,9 @@ class FrameHandler {
   /// \pre started().
   const Tracker& tracker() const { return *tracker_; }
 
+  /// The pieces of the mesh that came off others, joined others or went in the last frame; none in the first.
+  const std::vector<TopologyEvent>& topology_events() const { return events_; }
+
   /// The tracked mesh as a message, stamped and framed as the last cloud.
   /// \pre started().
   TrackedMesh message(const MessageContent& content = {}) const;
@@ -103,6 +107,8 @@ class FrameHandler {
   FrameReport start(const ParticleFrame& frame, std::uint64_t frame_index);
   PreparedFrame prepare(const sensor_msgs::PointCloud2& cloud);
   FrameReport advance(PreparedFrame prepared, std::uint64_t frame_index);
+  // Compares the mesh with that of the frame before.
+  void find_events(const VertexPlaces& before, FrameReport& report);
 
   FrameHandlerOptions options_;
   std::optional<Tracker> tracker_;
@@ -110,6 +116,7 @@ class FrameHandler {
   double seconds_ = 0.0;                  // Between the last frame and the one before; 0 if there is none.
   std::unique_ptr<VertexPlaces> before_;  // Of the frame before the last.
   std::vector<Triangle> triangles_;       // Of the last frame, to see when they change.
+  std::vector<TopologyEvent> events_;     // Of the last frame.
   std::uint32_t topology_version_ = 0;
   std::unique_ptr<FrameAhead> ahead_;
   SurfaceSource surface_source_;

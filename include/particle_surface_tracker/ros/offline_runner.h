@@ -27,6 +27,8 @@ struct OfflineOptions {
   std::optional<std::size_t> threads;  ///< At most this many; none: all there are.
   bool pipeline = false;               ///< Make the implicit surface of a frame while the one before is tracked.
   bool check = false;                  ///< Check the mesh of every frame.
+  /// What of the particles bags and mesh files are to have at the vertices: see read_particle_attributes().
+  std::vector<std::string> interpolate;
 
   std::string out;                                      ///< Folder of the mesh sequence.
   std::optional<MeshFormat> format = MeshFormat::kPly;  ///< None: no mesh files, and the folder is not touched.

@@ -5,9 +5,9 @@
 
 #include <particle_surface_tracker/TrackerStatus.h>
 
+#include "ros/input_sequence.h"
 #include "ros/live/frame_queue.h"
 #include "ros/live/input_place.h"
-#include "ros/live/input_sequence.h"
 #include "ros/live/throttled_log.h"
 
 namespace particle_surface_tracker {

@@ -35,15 +35,10 @@ void describe(const FrameReport& report, TrackerStatus& status) {
   status.flagged_cells = static_cast<std::uint32_t>(report.flagged_cells);
   status.original_vertices = static_cast<std::uint32_t>(report.original_vertices_alive);
   status.remeshed_cells = static_cast<std::uint32_t>(report.topology.remeshed_cells);
+  status.splits = static_cast<std::uint32_t>(report.topology.splits);
+  status.merges = static_cast<std::uint32_t>(report.topology.merges);
   status.volume = report.volume;
   status.implicit_volume = report.implicit_volume;
-}
-
-void describe(const std::vector<TopologyEvent>& events, TrackerStatus& status) {
-  for (const TopologyEvent& event : events) {
-    if (event.kind == TopologyEvent::Kind::kSplit) ++status.splits;
-    if (event.kind == TopologyEvent::Kind::kMerge) ++status.merges;
-  }
 }
 
 TrackedView view_of(const Tracker& tracker, const FrameReport& report, std::uint32_t first_new_id) {

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <vector>
-
 #include <particle_surface_tracker/TrackerStatus.h>
 
 #include "particle_surface_tracker/core/frame_report.h"
 #include "particle_surface_tracker/tracker/tracker.h"
-#include "ros/live/topology_events.h"
 #include "ros/live/tracked_view.h"
 
 namespace particle_surface_tracker {
 
 /// Writes what a report says into a status.
 void describe(const FrameReport& report, TrackerStatus& status);
-
-/// Writes the numbers of splits and merges into a status.
-void describe(const std::vector<TopologyEvent>& events, TrackerStatus& status);
 
 /// What is to be seen of a tracked frame, all but mesh message and events.
 /// \param first_new_id vertices that this frame made have ids from here on; those of re-meshing come first.

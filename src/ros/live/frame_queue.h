@@ -12,7 +12,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
-#include "ros/live/input_sequence.h"
+#include "ros/input_sequence.h"
 
 namespace particle_surface_tracker {
 

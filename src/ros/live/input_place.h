@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "ros/live/input_sequence.h"
+#include "ros/input_sequence.h"
 
 namespace particle_surface_tracker {
 

@@ -1,14 +1,11 @@
 #include "ros/live/node_diagnostics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include "particle_surface_tracker/core/types.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -178,24 +175,7 @@ void NodeDiagnostics::describe_surface(Report& report) const {
   report.add("components", shown_.report.components);
   report.add("flagged vertices", shown_.report.flagged_vertices);
   report.add("volume [m^3]", shown_.report.volume);
-  report.add("smallest angle [deg]", smallest_angle(*shown_.mesh));
-}
-
-double smallest_angle(const TrackedMesh& mesh) {
-  double largest_cosine = -1.0;
-  const auto corner = [&](std::size_t n) -> Vec3d {
-    return Vec3f(&mesh.vertices[3 * std::size_t{mesh.triangles[n]}]).cast<double>();
-  };
-  for (std::size_t n = 0; n + 2 < mesh.triangles.size(); n += 3) {
-    const Vec3d corners[3] = {corner(n), corner(n + 1), corner(n + 2)};
-    for (int k = 0; k < 3; ++k) {
-      const Vec3d a = corners[(k + 1) % 3] - corners[k];
-      const Vec3d b = corners[(k + 2) % 3] - corners[k];
-      const double lengths = a.norm() * b.norm();
-      largest_cosine = std::max(largest_cosine, lengths > 0.0 ? a.dot(b) / lengths : 1.0);
-    }
-  }
-  return std::acos(std::clamp(largest_cosine, -1.0, 1.0)) * 180.0 / M_PI;
+  if (shown_.report.triangles != 0) report.add("smallest angle [deg]", shown_.report.smallest_angle);
 }
 
 }  // namespace particle_surface_tracker

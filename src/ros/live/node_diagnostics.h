@@ -96,7 +96,4 @@ class NodeDiagnostics {
   ros::WallTimer timer_;
 };
 
-/// The smallest angle of all triangles of a mesh [deg]; 180 without triangles.
-double smallest_angle(const TrackedMesh& mesh);
-
 }  // namespace particle_surface_tracker

@@ -33,14 +33,14 @@ void set_value(const Description& description, const std::string& text, TrackerC
   description.fromMessage(message, config);
 }
 
-// A config that has one of the bounds of every number.
-TrackerConfig bounds(double ParameterInfo::*bound) {
+// A config that has one of the ends of every number's slider.
+TrackerConfig slider_ends(double ParameterInfo::*end) {
   TrackerConfig config = TrackerConfig::__getDefault__();
   for (const auto& description : TrackerConfig::__getParamDescriptions__()) {
     for (const ParameterInfo& info : parameter_table()) {
       if (info.name != description->name || info.type == ParameterInfo::Type::kChoice) continue;
       const bool is_real = info.type == ParameterInfo::Type::kReal;
-      set_value(*description, is_real ? fmt::format("{}", info.*bound) : fmt::format("{:.0f}", info.*bound), config);
+      set_value(*description, is_real ? fmt::format("{}", info.*end) : fmt::format("{:.0f}", info.*end), config);
     }
   }
   return config;
@@ -87,8 +87,8 @@ ParameterServer::ParameterServer(const ros::NodeHandle& private_handle, const Pa
   // The server begins with what it finds there.
   to_config(initial).__toServer__(private_handle);
   server_ = std::make_unique<dynamic_reconfigure::Server<TrackerConfig>>(mutex_, private_handle);
-  server_->setConfigMin(bounds(&ParameterInfo::minimum));
-  server_->setConfigMax(bounds(&ParameterInfo::maximum));
+  server_->setConfigMin(slider_ends(&ParameterInfo::minimum));
+  server_->setConfigMax(slider_ends(&ParameterInfo::slider_maximum));
   server_->setConfigDefault(to_config(Parameters()));
   server_->setCallback([this](TrackerConfig& config, std::uint32_t) { change(config); });
 }

@@ -20,8 +20,9 @@ TrackerConfig to_config(const Parameters& parameters);
 /// \throw ParameterError as set_parameter() and check_parameters(); `parameters` is unchanged then.
 void apply_config(const TrackerConfig& config, Parameters& parameters);
 
-/// The dynamic_reconfigure server of a node. Ranges are those of parameter_table(); a value out of range is refused,
-/// said, and the value before it shown again, where dynamic_reconfigure by itself would silently take the nearest. What
+/// The dynamic_reconfigure server of a node. A value out of the range of parameter_table() is refused, said, and the
+/// value before it shown again, where dynamic_reconfigure by itself would silently take the nearest. The ranges that it
+/// describes to others are those of sliders, which may end earlier: a value beyond is shown and taken as any other. What
 /// is shown are the values that are wanted; whether they are in force already is said in the diagnostics.
 class ParameterServer {
  public:

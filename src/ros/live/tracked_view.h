@@ -8,7 +8,7 @@
 
 #include "particle_surface_tracker/core/implicit_surface.h"
 #include "particle_surface_tracker/core/topology_cells.h"
-#include "ros/live/topology_events.h"
+#include "particle_surface_tracker/core/topology_events.h"
 
 namespace particle_surface_tracker {
 

@@ -8,7 +8,7 @@
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/ros/particle_conversion.h"
 #include "ros/live/frame_description.h"
-#include "ros/live/particle_attributes.h"
+#include "ros/particle_attributes.h"
 
 namespace particle_surface_tracker {
 
@@ -155,11 +155,7 @@ std::shared_ptr<const TrackedView> TrackingWorker::make_view(const ReceivedFrame
   add_interpolated(*frame.cloud, *mesh, status);
   auto view = std::make_shared<TrackedView>(view_of(handler_.tracker(), report, first_new_id));
   view->mesh = std::move(mesh);
-  const FrameReport::Topology& topology = report.topology;
-  if (last_mesh_ != nullptr && topology.remeshed_cells + topology.removed_components > 0) {
-    view->events = find_topology_events(*last_mesh_, *view->mesh, 2.0 * view->r);
-    describe(view->events, status);
-  }
+  view->events = handler_.topology_events();
   return view;
 }
 

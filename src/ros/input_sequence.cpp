@@ -1,4 +1,4 @@
-#include "ros/live/input_sequence.h"
+#include "input_sequence.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ros/live/particle_attributes.h"
+#include "ros/particle_attributes.h"
 
 #include <algorithm>
 #include <cmath>

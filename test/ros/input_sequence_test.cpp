@@ -1,4 +1,4 @@
-#include "ros/live/input_sequence.h"
+#include "ros/input_sequence.h"
 
 #include <gtest/gtest.h>
 

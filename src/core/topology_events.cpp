@@ -1,4 +1,4 @@
-#include "ros/live/topology_events.h"
+#include "particle_surface_tracker/core/topology_events.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,10 +12,8 @@ namespace {
 
 /// A mesh with the components of its vertices.
 struct Pieces {
-  explicit Pieces(const TrackedMesh& message) : mesh(message) {
-    std::vector<Triangle> triangles(mesh.triangles.size() / 3);
-    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) triangles[n / 3][n % 3] = mesh.triangles[n];
-    of_vertex = vertex_components(mesh.ids.size(), triangles, count);
+  explicit Pieces(const IdentifiedMesh& whole)
+      : mesh(whole), of_vertex(vertex_components(whole.ids.size(), whole.triangles, count)) {
     sizes.resize(count);
     middles.resize(count, Vec3d::Zero());
     for (std::size_t v = 0; v < of_vertex.size(); ++v) {
@@ -25,7 +23,7 @@ struct Pieces {
     for (std::size_t c = 0; c < count; ++c) middles[c] /= static_cast<double>(sizes[c]);
   }
 
-  Vec3f position(std::size_t v) const { return Vec3f(&mesh.vertices[3 * v]); }
+  const Vec3f& position(std::size_t v) const { return mesh.positions[v]; }
 
   /// The vertex nearest to a place, among some.
   template <typename Wanted>
@@ -42,7 +40,7 @@ struct Pieces {
     return best;
   }
 
-  const TrackedMesh& mesh;
+  IdentifiedMesh mesh;
   std::size_t count = 0;
   std::vector<std::uint32_t> of_vertex;
   std::vector<std::size_t> sizes;
@@ -62,7 +60,7 @@ std::unordered_map<std::uint32_t, std::size_t> places_of(const std::vector<std::
 
 class Comparison {
  public:
-  Comparison(const TrackedMesh& before, const TrackedMesh& after)
+  Comparison(const IdentifiedMesh& before, const IdentifiedMesh& after)
       : before_(before), after_(after), forward_(before_.count), backward_(after_.count) {
     const auto places = places_of(before.ids);
     is_new_.resize(after.ids.size());
@@ -133,7 +131,8 @@ class Comparison {
 
 }  // namespace
 
-std::vector<TopologyEvent> find_topology_events(const TrackedMesh& before, const TrackedMesh& after, double reach) {
+std::vector<TopologyEvent> find_topology_events(const IdentifiedMesh& before, const IdentifiedMesh& after,
+                                                double reach) {
   return Comparison(before, after).events(reach);
 }
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "particle_attributes.h"
 #include "particle_surface_tracker/core/particle_grid.h"
-#include "ros/live/particle_attributes.h"
 
 namespace particle_surface_tracker {
 namespace {
