@@ -129,6 +129,21 @@ TEST(SurfaceInbox, WhatComesLaterThanAWaitTakesIsTooLate) {
   EXPECT_FALSE(inbox.receive(late));
 }
 
+TEST(SurfaceInbox, TheSurfaceOfAFirstFrameIsNotLateAsNobodyAsksForIt) {
+  Complaints complaints;
+  SurfaceInbox inbox(2, milliseconds(0), complaints.note());
+  EXPECT_EQ(inbox.wait_for(frame_of(6), parameters_with_spacing(r), /*is_expected*/ false), nullptr);
+  EXPECT_EQ(inbox.wait_for(frame_of(7), parameters_with_spacing(r), /*is_expected*/ false), nullptr);
+  std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_TRUE(inbox.receive(surface_of(5)));
+  EXPECT_FALSE(inbox.receive(surface_of(6)));
+  // Time goes back to the second frame of another run.
+  EXPECT_EQ(inbox.wait_for(frame_of(3), parameters_with_spacing(r), /*is_expected*/ false), nullptr);
+  std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_TRUE(inbox.receive(surface_of(2)));
+  EXPECT_FALSE(inbox.receive(surface_of(3)));
+}
+
 TEST(SurfaceInbox, ClosingEndsTheWaiting) {
   Complaints complaints;
   SurfaceInbox inbox(2, std::chrono::hours(1), complaints.note());

@@ -22,8 +22,8 @@ void apply_config(const TrackerConfig& config, Parameters& parameters);
 
 /// The dynamic_reconfigure server of a node. A value out of the range of parameter_table() is refused, said, and the
 /// value before it shown again, where dynamic_reconfigure by itself would silently take the nearest. The ranges that it
-/// describes to others are those of sliders, which may end earlier: a value beyond is shown and taken as any other. What
-/// is shown are the values that are wanted; whether they are in force already is said in the diagnostics.
+/// describes to others are those of sliders, which may end earlier: a value beyond is shown and taken as any other.
+/// What is shown are the values that are wanted; whether they are in force already is said in the diagnostics.
 class ParameterServer {
  public:
   /// Receives valid parameters, on the thread of the service call.

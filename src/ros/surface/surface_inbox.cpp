@@ -29,7 +29,7 @@ bool SurfaceInbox::receive(const ParticleSurfaceConstPtr& surface) {
     --surfaces_;
   }
   changed_.notify_all();
-  if (!last_asked_ || stamp_ns > *last_asked_) return true;
+  if (!last_asked_ || stamp_ns > *last_asked_ || stamp_ns < *first_asked_) return true;
   const auto asked = asked_in_vain_.find(stamp_ns);
   return asked != asked_in_vain_.end() && std::chrono::steady_clock::now() - asked->second <= patience_;
 }
@@ -54,6 +54,7 @@ ParticleSurfaceConstPtr SurfaceInbox::take(std::int64_t stamp_ns, bool is_expect
   if (is_expected) {
     changed_.wait_for(lock, patience_, [&] { return closed_ || waiting_.count(stamp_ns) != 0; });
   }
+  if (!last_asked_ || stamp_ns < *last_asked_) first_asked_ = stamp_ns;  // Time goes back where a run begins.
   last_asked_ = stamp_ns;
   const auto found = waiting_.find(stamp_ns);
   ParticleSurfaceConstPtr surface = found != waiting_.end() ? found->second : nullptr;

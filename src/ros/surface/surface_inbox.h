@@ -31,7 +31,8 @@ class SurfaceInbox {
                std::function<void(const std::string&)> complain);
 
   /// Receives a surface, on any thread.
-  /// \return whether it is in time: nobody has asked for it yet, or not longer ago than a wait takes.
+  /// \return whether it is in time: nobody has asked for it yet, or not longer ago than a wait takes. The first frame
+  /// of a run never asks, so what is before all that was asked for is in time as well.
   bool receive(const ParticleSurfaceConstPtr& surface);
 
   /// Waits for the surface of a frame. Surfaces of frames before it are not wanted any more.
@@ -58,7 +59,8 @@ class SurfaceInbox {
   std::condition_variable changed_;
   // By stamp [ns]; null where one gave way, so that nobody waits for it.
   std::map<std::int64_t, ParticleSurfaceConstPtr> waiting_;
-  std::optional<std::int64_t> last_asked_;  // [ns]
+  std::optional<std::int64_t> first_asked_;  // [ns]
+  std::optional<std::int64_t> last_asked_;   // [ns]
   // When those were asked for that had not come: not longer ago than a wait takes.
   std::map<std::int64_t, std::chrono::steady_clock::time_point> asked_in_vain_;
   std::size_t surfaces_ = 0;  // Of waiting_: those that are not null.
