@@ -6,14 +6,18 @@ import unittest
 
 from script_support import PROJECT, main
 
-SOURCE = PROJECT / "src/ros/live/node_options.cpp"
+SOURCES = [PROJECT / "src/ros/live" / name for name in ("node_options.cpp", "tracker_parameters.cpp")]
 PAGE = PROJECT / "docs/node.md"
 NUMBER = r"-?[\d.]+(?:e\d+)?"
 
 
+def code_that_reads():
+    return "".join(source.read_text(encoding="utf-8") for source in SOURCES)
+
+
 def read_by_the_node():
     """name -> (type, default, range or None)"""
-    code = SOURCE.read_text(encoding="utf-8")
+    code = code_that_reads()
     found = {}
     for name, default in re.findall(r'source\.text\("(\w+)"\)(?:\.value_or\("(\w*)"\))?', code):
         found[name] = ("string", default, None)
@@ -37,7 +41,7 @@ def told_by_the_page():
 
 class NodePage(unittest.TestCase):
     def test_every_call_is_understood(self):
-        calls = len(re.findall(r'source\.\w+\("|source,\s*"', SOURCE.read_text(encoding="utf-8")))
+        calls = len(re.findall(r'source\.\w+\("|source,\s*"', code_that_reads()))
         self.assertEqual(calls, len(read_by_the_node()), "a parameter is read in a way that this test does not know")
 
     def test_names_types_and_defaults(self):
