@@ -23,6 +23,13 @@ using Field =
 struct Entry {
   ParameterInfo info;
   Field field;
+
+  /// The same with a slider that ends before what is valid does.
+  Entry with_slider_to(double maximum) const {
+    Entry entry = *this;
+    entry.info.slider_maximum = maximum;
+    return entry;
+  }
 };
 
 constexpr double kTiny = std::numeric_limits<double>::min();
@@ -43,12 +50,6 @@ Entry integer(int Parameters::*field, std::string name, double minimum, double m
   return {std::move(info), field};
 }
 
-/// The entry with a slider that ends before what is valid does.
-Entry slider_to(double slider_maximum, Entry entry) {
-  entry.info.slider_maximum = slider_maximum;
-  return entry;
-}
-
 Entry choice(Field field, std::string name, std::vector<std::string> choices, std::string text) {
   ParameterInfo info{std::move(name), "", "", std::move(text), ParameterInfo::Type::kChoice};
   info.choices = std::move(choices);
@@ -66,17 +67,19 @@ std::vector<Entry> make_entries() {
           "rigid motion."),
       real(&P::advection_radius, "advection_radius", "", "r", 0.5, 8.0, false,
            "Influence radius of the poly6 kernel that weighs the particles around a vertex."),
-      slider_to(50.0, real(&P::max_displacement, "max_displacement", "", "r", 0.1, 1e6, false,
-                           "A particle that moves farther in one frame counts as gone and born again.")),
+      real(&P::max_displacement, "max_displacement", "", "r", 0.1, 1e6, false,
+           "A particle that moves farther in one frame counts as gone and born again.")
+          .with_slider_to(50.0),
       integer(&P::affine_min_neighbors, "affine_min_neighbors", 1, 100,
               "The affine fit widens its radius until it holds this many particles."),
       real(&P::affine_max_radius, "affine_max_radius", "", "r", 0.5, 16.0, false,
            "Largest radius of the affine fit; at least advection_radius."),
       real(&P::affine_rank_threshold, "affine_rank_threshold", "", "r^2", 0.0, 1.0, false,
            "Directions in which the particles around a vertex spread less than this variance are not fitted."),
-      slider_to(0.5, real(&P::affine_max_residual, "affine_max_residual", "", "r", 1e-3, 100.0, false,
-                          "Where the displacements around a vertex depart from the affine fit by more than this (root "
-                          "mean square), the fit gives way to the average, wholly at twice this.")),
+      real(&P::affine_max_residual, "affine_max_residual", "", "r", 1e-3, 100.0, false,
+           "Where the displacements around a vertex depart from the affine fit by more than this (root "
+           "mean square), the fit gives way to the average, wholly at twice this.")
+          .with_slider_to(0.5),
       real(&P::affine_max_stretch, "affine_max_stretch", "", "", 0.0, 1.0, false,
            "The affine fit stretches by at most this fraction in one frame."),
       real(&P::dx_phi, "dx_phi", "dx_phi", "r", 0.1, 1.0, true, "Cell size of the implicit function phi."),
@@ -99,10 +102,11 @@ std::vector<Entry> make_entries() {
            "Part of the distance to the isosurface that one step of the projection travels."),
       real(&P::projection_tolerance, "projection_tolerance", "", "dx_phi", 1e-6, 0.5, false,
            "The projection has found the isosurface when |phi| is below this."),
-      slider_to(500,
-                integer(&P::projection_max_steps, "projection_max_steps", 1, 100000, "Most steps of one projection.")),
-      slider_to(4.0, real(&P::tau, "tau", "tau", "r", 1e-3, 100.0, false,
-                          "A projection that moves a vertex farther than this is taken for a change of topology.")),
+      integer(&P::projection_max_steps, "projection_max_steps", 1, 100000, "Most steps of one projection.")
+          .with_slider_to(500),
+      real(&P::tau, "tau", "tau", "r", 1e-3, 100.0, false,
+           "A projection that moves a vertex farther than this is taken for a change of topology.")
+          .with_slider_to(4.0),
       choice(&P::topology, "topology", {"keep", "match"},
              "Whether the mesh splits and merges as the particles do, or keeps its connectivity."),
       real(&P::dx_gamma, "dx_gamma", "dx_Gamma", "r", 0.1, 4.0, true,
@@ -110,12 +114,10 @@ std::vector<Entry> make_entries() {
       choice(&P::detection, "detection", {"tau", "tau_and_signs"},
              "What is taken for a change of topology: vertices that jump, as in the paper, or also places where mesh "
              "and implicit surface disagree about inside and outside, such as new drops and bubbles."),
-      slider_to(
-          20.0,
-          real(
-              &P::matching_reach, "matching_reach", "", "r", 0.0, 1e3, false,
-              "Topology matching changes Gamma this far from what is flagged, and farther where that is not enough; 0: "
-              "everywhere.")),
+      real(&P::matching_reach, "matching_reach", "", "r", 0.0, 1e3, false,
+           "Topology matching changes Gamma this far from what is flagged, and farther where that is not enough; 0: "
+           "everywhere.")
+          .with_slider_to(20.0),
       choice(&P::matching_frames, "matching_frames", {"flagged", "every"},
              "Topology is matched where something is flagged, or around the whole surface in every frame."),
       choice(&P::matching_solver, "matching_solver", {"sor", "pcg"},
@@ -126,12 +128,12 @@ std::vector<Entry> make_entries() {
       choice(&P::self_intersections, "self_intersections", {"keep", "remesh"},
              "Triangles that cross each other within a cell of Gamma stay, or their cells are made anew; what "
              "crosses more widely is always made anew."),
-      slider_to(10.0, real(&P::split_length, "split_length", "", "dx_Gamma", 0.5, 1e6, false,
-                           "A longer edge is split, if it has also grown by split_growth.")),
-      slider_to(
-          10.0,
-          real(&P::split_growth, "split_growth", "", "", 1.0, 1e6, false,
-               "An edge is split only if it is longer than this times the edges that its vertices had at birth.")),
+      real(&P::split_length, "split_length", "", "dx_Gamma", 0.5, 1e6, false,
+           "A longer edge is split, if it has also grown by split_growth.")
+          .with_slider_to(10.0),
+      real(&P::split_growth, "split_growth", "", "", 1.0, 1e6, false,
+           "An edge is split only if it is longer than this times the edges that its vertices had at birth.")
+          .with_slider_to(10.0),
       real(&P::collapse_length, "collapse_length", "", "dx_Gamma", 0.0, 0.25, false,
            "A shorter edge is collapsed, if it has also shrunk by collapse_shrinkage."),
       real(&P::collapse_shrinkage, "collapse_shrinkage", "", "", 0.0, 0.5, false,
@@ -147,9 +149,10 @@ std::vector<Entry> make_entries() {
       choice(&P::stretched_detail, "stretched_detail", {"keep", "thin"},
              "What becomes of delta where the surface is drawn out: it stays, as in the paper, or shrinks as the area "
              "grows, so that detail keeps its volume."),
-      slider_to(60.0, real(&P::delta_half_life, "delta_half_life", "", "s", 0.0, 1e9, false,
-                           "Time in which the distance delta between mesh and isosurface halves, so that old detail "
-                           "fades; 0 keeps it.")),
+      real(&P::delta_half_life, "delta_half_life", "", "s", 0.0, 1e9, false,
+           "Time in which the distance delta between mesh and isosurface halves, so that old detail "
+           "fades; 0 keeps it.")
+          .with_slider_to(60.0),
   };
 }
 
