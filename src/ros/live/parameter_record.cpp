@@ -25,10 +25,10 @@ Value part_of(Value& value, const char* name) {
   return has_it && value[name].getType() == Value::TypeStruct ? value[name] : Value();
 }
 
-ParameterRecord::Texts texts_of(Value value) {
+ParameterRecord::Texts texts_of(const Value& value) {
   ParameterRecord::Texts texts;
   if (value.getType() != Value::TypeStruct) return texts;
-  for (auto& [name, entry] : value) {
+  for (const auto& [name, entry] : value) {
     if (entry.getType() == Value::TypeString) texts[name] = static_cast<std::string>(entry);
   }
   return texts;
