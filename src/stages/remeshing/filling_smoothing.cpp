@@ -112,6 +112,7 @@ class Smoother {
     constexpr std::array<double, 3> margins{0.02, 0.005, 0.001};  // [cells]
     const auto at = [&](std::uint32_t vertex) -> const Vec3d& { return patch_.vertex(vertex).position; };
     Vec3d& center = patch_.vertex(patch_.triangles[begin][0]).position;
+    const Vec3d& placed = start_[local(patch_.triangles[begin][0])];
     Vec3d normal = Vec3d::Zero();
     for (std::size_t t = begin; t < end; ++t) {
       normal += (at(patch_.triangles[t][1]) - center).cross(at(patch_.triangles[t][2]) - center);
@@ -125,7 +126,8 @@ class Smoother {
     }
     for (const double margin : margins) {
       const Vec3d moved = moved_inside(inner_sides, center, margin * h_);
-      if (depth(inner_sides, moved).first > depth(inner_sides, center).first) center = moved;
+      const bool is_near = (moved - placed).norm() <= kFarthest * h_;
+      if (is_near && depth(inner_sides, moved).first > depth(inner_sides, center).first) center = moved;
       if (depth(inner_sides, center).first >= margin * h_) return;
     }
   }
@@ -147,15 +149,14 @@ class Smoother {
   }
 
   /// Moves a place across the half-plane that it is farthest outside of, again and again.
-  Vec3d moved_inside(const std::vector<HalfPlane>& inner_sides, const Vec3d& start, double margin) const {
+  static Vec3d moved_inside(const std::vector<HalfPlane>& inner_sides, Vec3d place, double margin) {
     constexpr int kMoves = 64;
-    Vec3d place = start;
     for (int move = 0; move < kMoves; ++move) {
       const auto [distance, side] = depth(inner_sides, place);
       if (distance >= margin) break;
       place += (1.5 * margin - distance) * side->inwards;
     }
-    return (place - start).norm() > kFarthest * h_ ? start : place;
+    return place;
   }
 
   double h_;
