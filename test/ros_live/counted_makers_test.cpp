@@ -57,12 +57,3 @@ TEST(DistributedLaunch, BothMakersAreJoined) {
 
 }  // namespace
 }  // namespace particle_surface_tracker::test
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "counted_makers_test");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  const ros::NodeHandle keeps_the_node_alive;
-  return RUN_ALL_TESTS();
-}

@@ -152,7 +152,3 @@ TEST_F(LivePolicies, StrictTakesABadCloudForAGap) {
 
 }  // namespace
 }  // namespace particle_surface_tracker::test
-
-int main(int argc, char** argv) {
-  return particle_surface_tracker::test::run_live_tests(argc, argv);
-}

@@ -128,7 +128,3 @@ TEST_F(LiveSurfaces, ParametersThatCannotBeAreRefused) {
 
 }  // namespace
 }  // namespace particle_surface_tracker::test
-
-int main(int argc, char** argv) {
-  return particle_surface_tracker::test::run_live_tests(argc, argv);
-}
