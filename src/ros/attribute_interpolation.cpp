@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kRadius = 2.0;  // [r]
 
-std::vector<Vec3f> triples(const std::vector<float>& numbers) {
-  std::vector<Vec3f> result(numbers.size() / 3);
-  for (std::size_t n = 0; n < result.size(); ++n) {
-    result[n] = Vec3f(numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]);
-  }
-  return result;
-}
-
 /// The particles around a vertex, with their weights.
 struct Neighbors {
   std::vector<std::uint32_t> particles;
@@ -60,23 +52,22 @@ float mean(const ParticleAttributes::Attribute& attribute, std::size_t component
 
 }  // namespace
 
-std::vector<InterpolatedField> interpolate(const ParticleAttributes& particles, const std::vector<float>& vertices,
+std::vector<InterpolatedField> interpolate(const ParticleAttributes& particles, const std::vector<Vec3f>& vertices,
                                            double r) {
   std::vector<InterpolatedField> result;
   if (particles.attributes.empty()) return result;
-  const std::vector<Vec3f> places = triples(vertices);
   for (const ParticleAttributes::Attribute& attribute : particles.attributes) {
     InterpolatedField at_vertices;
     at_vertices.name = attribute.name;
     at_vertices.components = static_cast<std::uint32_t>(attribute.components);
-    at_vertices.values.resize(places.size() * attribute.components);
+    at_vertices.values.resize(vertices.size() * attribute.components);
     result.push_back(std::move(at_vertices));
   }
-  const ParticleGrid grid(triples(particles.positions), r);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 256), [&](const auto& range) {
+  const ParticleGrid grid(particles.positions, r);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices.size(), 256), [&](const auto& range) {
     Neighbors neighbors;
     for (std::size_t v = range.begin(); v != range.end(); ++v) {
-      const Vec3d place = places[v].cast<double>();
+      const Vec3d place = vertices[v].cast<double>();
       find_neighbors(grid, place, kRadius * r, neighbors);
       const std::size_t nearest = neighbors.particles.empty() ? grid.nearest(place) : neighbors.particles.front();
       for (std::size_t a = 0; a < result.size(); ++a) {

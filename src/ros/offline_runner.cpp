@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "flat_arrays.h"
 #include "frame_reader.h"
 #include "particle_attributes.h"
 #include "particle_surface_tracker/core/error.h"
@@ -178,8 +177,7 @@ class OfflineRun {
     const ParticleAttributes attributes = read_particle_attributes(cloud, options_.interpolate);
     for (const std::string& missing : attributes.missing) say_once(missing, report);
     const Tracker& tracker = handler_->tracker();
-    auto fields =
-        interpolate(attributes, flat<float>(tracker.mesh().positions()), tracker.parameters().particle_spacing);
+    auto fields = interpolate(attributes, tracker.mesh().positions(), tracker.parameters().particle_spacing);
     times_.add("interpolation", interpolating.seconds());
     return fields;
   }

@@ -129,7 +129,8 @@ ParticleAttributes read_particle_attributes(const PointCloud2& cloud, const std:
   int axis = 0;
   for (const char* name : {"x", "y", "z"}) axes[axis++] = find_field(cloud, name, {PointField::FLOAT32});
   for (const std::uint8_t* point : points) {
-    for (const PointField* field : axes) particles.positions.push_back(scalar_at(point, *field));
+    particles.positions.emplace_back(scalar_at(point, *axes[0]), scalar_at(point, *axes[1]),
+                                     scalar_at(point, *axes[2]));
   }
   return particles;
 }

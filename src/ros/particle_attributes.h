@@ -6,6 +6,8 @@
 #include <particle_surface_tracker/InterpolatedField.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "particle_surface_tracker/core/types.h"
+
 namespace particle_surface_tracker {
 
 /// Values that the particles of a cloud carry.
@@ -17,7 +19,7 @@ struct ParticleAttributes {
     std::vector<float> values;  ///< `components` for each particle, particle by particle.
   };
 
-  std::vector<float> positions;  ///< x y z of each particle [m], in the order of their ids.
+  std::vector<Vec3f> positions;  ///< [m], in the order of their ids.
   std::vector<Attribute> attributes;
   std::vector<std::string> missing;  ///< What the cloud does not have, each in words.
 };
@@ -30,9 +32,9 @@ ParticleAttributes read_particle_attributes(const sensor_msgs::PointCloud2& clou
 
 /// Attributes at the vertices of a mesh: means over the particles within 2 r, weighted by (1 − (d / 2r)²)³, as
 /// advection weights displacements. A vertex that has none so near takes the values of the nearest particle.
-/// \param vertices x y z of each [m].
+/// \param vertices [m]
 /// \param r particle spacing [m].
-std::vector<InterpolatedField> interpolate(const ParticleAttributes& particles, const std::vector<float>& vertices,
+std::vector<InterpolatedField> interpolate(const ParticleAttributes& particles, const std::vector<Vec3f>& vertices,
                                            double r);
 
 }  // namespace particle_surface_tracker

@@ -47,8 +47,8 @@ PointCloud2 with_field(const PointCloud2& cloud, const std::string& name, std::u
   return wider;
 }
 
-std::vector<float> middle() {
-  return {0.5f, 0.5f, 0.5f};
+std::vector<Vec3f> middle() {
+  return {{0.5f, 0.5f, 0.5f}};
 }
 
 TEST(ParticleAttributes, VelocityIsAMeanOfTheNeighbours) {
@@ -104,7 +104,7 @@ TEST(ParticleAttributes, ValuesThatAreNotFiniteDoNotCount) {
 TEST(ParticleAttributes, FarFromAllParticlesTheNearestCounts) {
   const PointCloud2 cloud =
       with_field<float>(to_point_cloud(block(), "tank"), "heat", PointField::FLOAT32, [](auto) { return 4.0f; });
-  const auto at = interpolate(read_particle_attributes(cloud, {"heat"}), {50.0f, 0.0f, 0.0f}, r);
+  const auto at = interpolate(read_particle_attributes(cloud, {"heat"}), {{50.0f, 0.0f, 0.0f}}, r);
   EXPECT_EQ(at.at(0).values.at(0), 4.0f);
 }
 
@@ -132,7 +132,7 @@ TEST(ParticleAttributes, TheOrderOfTheCloudDoesNotMatter) {
     std::copy_n(&cloud.data[std::size_t{p} * cloud.point_step], cloud.point_step,
                 &turned.data[std::size_t{cloud.width - 1 - p} * cloud.point_step]);
   }
-  const std::vector<float> places = {0.5f, 0.5f, 0.5f, 0.1f, 0.9f, 0.3f};
+  const std::vector<Vec3f> places = {{0.5f, 0.5f, 0.5f}, {0.1f, 0.9f, 0.3f}};
   EXPECT_EQ(interpolate(read_particle_attributes(cloud, {"velocity"}), places, r).at(0).values,
             interpolate(read_particle_attributes(turned, {"velocity"}), places, r).at(0).values);
 }

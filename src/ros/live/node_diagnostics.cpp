@@ -70,13 +70,13 @@ void NodeDiagnostics::note(const TrackerStatus& status) {
   if (!status.warnings.empty()) interval_.warning = status.warnings.back();
 }
 
-void NodeDiagnostics::note(const FrameReport& report, TrackedMeshConstPtr mesh) {
+void NodeDiagnostics::note(const FrameReport& report) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++interval_.tracked;
   interval_.tracking_time += report.total_time;
   for (const FrameReport::StageTime& time : report.times) interval_.stages[time.stage] += time.seconds;
   state_.report = report;
-  state_.mesh = std::move(mesh);
+  state_.has_mesh = true;
 }
 
 void NodeDiagnostics::note_waiting(const std::string& reason) {
@@ -93,7 +93,7 @@ void NodeDiagnostics::note_reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
   state_.failure.clear();
   interval_.failure.clear();
-  state_.mesh.reset();
+  state_.has_mesh = false;
 }
 
 void NodeDiagnostics::update() {
@@ -141,7 +141,7 @@ void NodeDiagnostics::describe_tracking(Report& report) const {
   } else if (latency > options_.late_after) {
     report.summary(Level::WARN, fmt::format("late by {:.3g} s; {} frames wait", latency, status.queue_length));
   } else {
-    report.summary(Level::OK, shown_.mesh == nullptr ? "nothing is tracked yet" : "in time");
+    report.summary(Level::OK, shown_.has_mesh ? "in time" : "nothing is tracked yet");
   }
   const double frames = static_cast<double>(std::max<std::size_t>(shown_interval_.tracked, 1));
   report.add("rate [1/s]", static_cast<double>(shown_interval_.tracked) / shown_seconds_);
@@ -164,12 +164,12 @@ void NodeDiagnostics::describe_surface(Report& report) const {
   if (!shown_interval_.warning.empty()) {
     report.summary(Level::WARN, shown_interval_.warning);
   } else {
-    report.summary(Level::OK, shown_.mesh == nullptr ? "there is no mesh yet" : "tracked");
+    report.summary(Level::OK, shown_.has_mesh ? "tracked" : "there is no mesh yet");
   }
   report.add("splits", shown_.splits);
   report.add("merges", shown_.merges);
   report.add("re-meshed cells", shown_.remeshed_cells);
-  if (shown_.mesh == nullptr) return;
+  if (!shown_.has_mesh) return;
   report.add("vertices", shown_.report.vertices);
   report.add("triangles", shown_.report.triangles);
   report.add("components", shown_.report.components);

@@ -6,7 +6,6 @@
 #include <string>
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <particle_surface_tracker/TrackedMesh.h>
 #include <particle_surface_tracker/TrackerStatus.h>
 #include <ros/ros.h>
 
@@ -36,7 +35,7 @@ class NodeDiagnostics {
   void note(const TrackerStatus& status);
 
   /// A frame was tracked.
-  void note(const FrameReport& report, TrackedMeshConstPtr mesh);
+  void note(const FrameReport& report);
 
   /// Nothing is tracked, for this reason, until it is empty.
   void note_waiting(const std::string& reason);
@@ -72,7 +71,7 @@ class NodeDiagnostics {
     std::string waiting_for;
     std::string waiting_parameters;
     FrameReport report;
-    TrackedMeshConstPtr mesh;
+    bool has_mesh = false;
     Clock::time_point last_arrival = Clock::now();
   };
 

@@ -143,7 +143,7 @@ void TrackingWorker::track(const ReceivedFrame& frame, TrackerStatus& status) {
   describe(report, status);
   const auto view = make_view(frame, report, first_new_id, status);
   last_mesh_ = view->mesh;
-  diagnostics_.note(report, last_mesh_);
+  diagnostics_.note(report);
   outputs_.publish(view);
   say(frame, report, status);
 }
@@ -166,7 +166,8 @@ void TrackingWorker::add_interpolated(const sensor_msgs::PointCloud2& cloud, Tra
     status.warnings.push_back(missing);
     log_.warn_sometimes("interpolate", missing);
   }
-  mesh.interpolated = interpolate(attributes, mesh.vertices, handler_.tracker().parameters().particle_spacing);
+  const Tracker& tracker = handler_.tracker();
+  mesh.interpolated = interpolate(attributes, tracker.mesh().positions(), tracker.parameters().particle_spacing);
 }
 
 void TrackingWorker::say(const ReceivedFrame& frame, const FrameReport& report, const TrackerStatus& status) {
