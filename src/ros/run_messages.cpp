@@ -37,8 +37,7 @@ void RunMessages::warn_once(std::uint64_t frame, const std::string& text) {
 void RunMessages::show_progress(std::size_t done, std::size_t total, std::uint64_t frame,
                                 std::optional<double> real_time_factor) {
   if (!progress_ || done == 0) return;
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const double rate = static_cast<double>(done) / std::max(elapsed, 1e-9);
+  const double rate = static_cast<double>(done) / std::max(elapsed_.seconds(), 1e-9);
   const std::string factor = real_time_factor ? fmt::format(", {:.2g} x real time", *real_time_factor) : "";
   err_ << erase_line
        << fmt::format("frame {}: {}/{}, {:.1f} frames/s{}, {} left", frame, done, total, rate, factor,

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <ostream>
 #include <set>
 #include <string>
+
+#include "stopwatch.h"
 
 namespace particle_surface_tracker {
 
@@ -31,7 +32,7 @@ class RunMessages {
   bool progress_;
   bool line_open_ = false;
   std::set<std::string> said_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch elapsed_;
 };
 
 /// The text without line breaks.
