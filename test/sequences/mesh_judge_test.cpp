@@ -141,28 +141,28 @@ TEST(MeshJudge, CountsClusters) {
 TEST(SolidJudge, SignsAreExactOnAlignedShapes) {
   const SolidJudge cube = judge_of(make_cube(0, 1));
   // Straight above and below corners, edges and diagonals of the triangles.
-  EXPECT_EQ(cube.winding_number({0.0f, 0.0f, 0.0f}), 1);
-  EXPECT_EQ(cube.winding_number({0.0f, 0.0f, -2.0f}), 0);
-  EXPECT_EQ(cube.winding_number({0.0f, 0.0f, 2.0f}), 0);
-  EXPECT_EQ(cube.winding_number({0.5f, 0.5f, -2.0f}), 0);
-  EXPECT_EQ(cube.winding_number({1.0f, 1.0f, -2.0f}), 0);
-  EXPECT_EQ(cube.winding_number({-1.0f, -1.0f, -2.0f}), 0);
-  EXPECT_EQ(cube.winding_number({1.5f, 0.0f, 0.0f}), 0);
-  EXPECT_EQ(cube.winding_number({std::nextafter(1.0f, 0.0f), 0.0f, 0.0f}), 1);
-  EXPECT_EQ(cube.winding_number({std::nextafter(1.0f, 2.0f), 0.0f, 0.0f}), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(0.0f, 0.0f, 0.0f)), 1);
+  EXPECT_EQ(cube.winding_number(Vec3f(0.0f, 0.0f, -2.0f)), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(0.0f, 0.0f, 2.0f)), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(0.5f, 0.5f, -2.0f)), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(1.0f, 1.0f, -2.0f)), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(-1.0f, -1.0f, -2.0f)), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(1.5f, 0.0f, 0.0f)), 0);
+  EXPECT_EQ(cube.winding_number(Vec3f(std::nextafter(1.0f, 0.0f), 0.0f, 0.0f)), 1);
+  EXPECT_EQ(cube.winding_number(Vec3f(std::nextafter(1.0f, 2.0f), 0.0f, 0.0f)), 0);
 }
 
 TEST(SolidJudge, CavitiesAreOutsideAndOverlapsInside) {
   const SolidJudge hollow = judge_of(make_hollow_cube());
-  EXPECT_EQ(hollow.winding_number({0, 0, 0}), 0);
-  EXPECT_EQ(hollow.winding_number({3, 0, 0}), 1);
-  EXPECT_EQ(hollow.winding_number({5, 0, 0}), 0);
+  EXPECT_EQ(hollow.winding_number(Vec3f(0, 0, 0)), 0);
+  EXPECT_EQ(hollow.winding_number(Vec3f(3, 0, 0)), 1);
+  EXPECT_EQ(hollow.winding_number(Vec3f(5, 0, 0)), 0);
   const SolidJudge nested = judge_of(joined({make_cube(0, 4), make_cube(0, 2)}));
-  EXPECT_EQ(nested.winding_number({0, 0, 0}), 2);
+  EXPECT_EQ(nested.winding_number(Vec3f(0, 0, 0)), 2);
   const SolidJudge crossing = judge_of(joined({make_cube(0, 1), make_cube(1, 1)}));
-  EXPECT_EQ(crossing.winding_number({0.5f, 0.5f, 0.5f}), 2);
-  EXPECT_EQ(crossing.winding_number({-0.5f, -0.5f, -0.5f}), 1);
-  EXPECT_EQ(crossing.winding_number({-0.5f, 1.5f, 0.5f}), 0);
+  EXPECT_EQ(crossing.winding_number(Vec3f(0.5f, 0.5f, 0.5f)), 2);
+  EXPECT_EQ(crossing.winding_number(Vec3f(-0.5f, -0.5f, -0.5f)), 1);
+  EXPECT_EQ(crossing.winding_number(Vec3f(-0.5f, 1.5f, 0.5f)), 0);
 }
 
 TEST(SolidJudge, SpheresAgreeWithTheirRadius) {
@@ -189,7 +189,7 @@ TEST(SolidJudge, SharesCountPointsInsideOrNear) {
 
 TEST(SolidJudge, AMeshWithoutTrianglesContainsNothing) {
   const SolidJudge nothing({}, {});
-  EXPECT_EQ(nothing.winding_number({0, 0, 0}), 0);
+  EXPECT_EQ(nothing.winding_number(Vec3f(0, 0, 0)), 0);
 }
 
 }  // namespace particle_surface_tracker::test

@@ -122,7 +122,7 @@ SolidJudge::SolidJudge(const std::vector<Vec3f>& positions, const std::vector<Tr
 SolidJudge::SolidJudge(SolidJudge&&) noexcept = default;
 SolidJudge::~SolidJudge() = default;
 
-std::vector<SolidJudge::Crossing> SolidJudge::crossings_above(const Vec3f& point) const {
+std::vector<SolidJudge::Crossing> SolidJudge::crossings_above(const Vec3d& point) const {
   const Point3 q(point.x(), point.y(), point.z());
   if (!columns_->box.contains(Eigen::Vector2d(q.x(), q.y()))) return {};
   const Eigen::Array2i place = columns_->column_of(q.x(), q.y());
@@ -136,7 +136,7 @@ std::vector<SolidJudge::Crossing> SolidJudge::crossings_above(const Vec3f& point
   return crossings;
 }
 
-int SolidJudge::winding_number(const Vec3f& point) const {
+int SolidJudge::winding_number(const Vec3d& point) const {
   int winding = 0;
   for (const Crossing& crossing : crossings_above(point)) winding += crossing.sign;
   return winding;

@@ -18,7 +18,8 @@ class SolidJudge {
 
   /// How often the mesh winds around a point: above 0 inside, also where parts of the mesh overlap each other; 0
   /// outside and in cavities. A point on the surface may get either.
-  int winding_number(const Vec3f& point) const;
+  int winding_number(const Vec3d& point) const;
+  int winding_number(const Vec3f& point) const { return winding_number(point.cast<double>().eval()); }
 
   /// A triangle that a ray upwards from a point passes: +1 where it leaves through the front, −1 where it enters.
   struct Crossing {
@@ -28,7 +29,7 @@ class SolidJudge {
 
   /// What the ray upwards from a point crosses; their sum is winding_number(), their sum over the triangles of a
   /// component how often that winds around the point.
-  std::vector<Crossing> crossings_above(const Vec3f& point) const;
+  std::vector<Crossing> crossings_above(const Vec3d& point) const;
 
   struct Nearest {
     double distance;  ///< [m].

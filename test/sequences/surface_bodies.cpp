@@ -18,7 +18,8 @@ constexpr std::size_t kVoters = 9;
 std::map<std::uint32_t, int> windings_at(const SolidJudge& judge,
                                          const std::vector<std::uint32_t>& component_of_triangle, const Vec3f& point) {
   std::map<std::uint32_t, int> windings;
-  for (const auto& [triangle, sign] : judge.crossings_above(point)) windings[component_of_triangle[triangle]] += sign;
+  for (const auto& [triangle, sign] : judge.crossings_above(point.cast<double>()))
+    windings[component_of_triangle[triangle]] += sign;
   return windings;
 }
 

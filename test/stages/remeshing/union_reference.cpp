@@ -11,6 +11,14 @@
 
 namespace particle_surface_tracker::test {
 
+namespace {
+
+/// Of a small triangle too a part can be on the boundary and the rest inside another body; a quarter of its edge is too
+/// coarse to see that part where bodies of a cell's size touch each other.
+constexpr int kFewestParts = 8;
+
+}  // namespace
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Search = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
 
@@ -21,17 +29,17 @@ struct UnionReference::Tree {
 UnionReference::UnionReference(const TriangleMesh& mesh, double spacing, double offset)
     : tree_(std::make_unique<Tree>()) {
   const SolidJudge judge(mesh.positions(), mesh.triangles());
-  for_samples_of(
-      mesh.positions(), mesh.triangles(), spacing, [&](const Vec3d& point, const Vec3d& normal, double area) {
-        const Vec3d outer = point + offset * normal;
-        const Vec3d inner = point - offset * normal;
-        if ((judge.winding_number(outer.cast<float>()) >= 1) == (judge.winding_number(inner.cast<float>()) >= 1)) {
-          return;
-        }
-        samples_.push_back(point);
-        area_ += area;
-        tree_->points.insert(Kernel::Point_3(point.x(), point.y(), point.z()));
-      });
+  for_samples_of(mesh.positions(), mesh.triangles(), spacing, kFewestParts,
+                 [&](const Vec3d& point, const Vec3d& normal, double area) {
+                   const Vec3d outer = point + offset * normal;
+                   const Vec3d inner = point - offset * normal;
+                   if ((judge.winding_number(outer) >= 1) == (judge.winding_number(inner) >= 1)) {
+                     return;
+                   }
+                   samples_.push_back(point);
+                   area_ += area;
+                   tree_->points.insert(Kernel::Point_3(point.x(), point.y(), point.z()));
+                 });
   if (!samples_.empty()) tree_->points.build();
 }
 

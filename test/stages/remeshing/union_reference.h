@@ -34,15 +34,15 @@ class UnionReference {
   std::unique_ptr<Tree> tree_;
 };
 
-/// Points on the triangles of a mesh, in each at most `spacing` from each other [m]; visit(point, normal, area) with
-/// the area that the point stands for.
+/// Points on the triangles of a mesh, in each at most `spacing` from each other [m] and at least `fewest`²;
+/// visit(point, normal, area) with the area that the point stands for.
 template <typename Visit>
 void for_samples_of(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles, double spacing,
-                    Visit&& visit);
+                    int fewest, Visit&& visit);
 
 template <typename Visit>
 void for_samples_of(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles, double spacing,
-                    Visit&& visit) {
+                    int fewest, Visit&& visit) {
   for (const Triangle& t : triangles) {
     const Vec3d a = positions[t[0]].cast<double>();
     const Vec3d u = positions[t[1]].cast<double>() - a;
@@ -50,7 +50,7 @@ void for_samples_of(const std::vector<Vec3f>& positions, const std::vector<Trian
     const Vec3d normal(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x());
     if (normal.norm() == 0.0) continue;
     const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
-    const int parts = 1 + static_cast<int>(longest / spacing);
+    const int parts = std::max(fewest, 1 + static_cast<int>(longest / spacing));
     // The middles of the parts² small triangles that are turned like the large one, and of those between them.
     for (int i = 0; i < parts; ++i) {
       for (int j = 0; i + j < parts; ++j) {
