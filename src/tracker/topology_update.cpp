@@ -146,7 +146,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     };
     request.remesh_crossings = pass == 0 && parameters.self_intersections == SelfIntersections::kRemesh;
     timer.begin("remeshing");
-    const RemeshingReport remeshed = remesh(mesh, *lattice, request, to_record);
+    const RemeshingReport remeshed = remesh(mesh, *lattice, request, memory.twins, to_record);
     describe(remeshed, report);
     if (record != nullptr) record->add(cells);
     if (!remeshed.changed()) break;

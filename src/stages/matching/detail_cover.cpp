@@ -69,10 +69,10 @@ std::vector<openvdb::Coord> nodes_beyond_detail(const NodeMasks& set, const Mesh
     box.intersect(all);
     if (box.empty()) return;
     for_each_node_in(set, box, [&](const openvdb::Coord& node) {
+      std::atomic<char>& mark = is_explained[numbers.find(node)];
+      if (mark.load(std::memory_order_relaxed) != 0) return;
       const openvdb::Vec3d place(lattice.plane(node.x()), lattice.plane(node.y()), lattice.plane(node.z()));
-      if (squared_distance(corners, place) <= reach * reach) {
-        is_explained[numbers.find(node)].store(1, std::memory_order_relaxed);
-      }
+      if (squared_distance(corners, place) <= reach * reach) mark.store(1, std::memory_order_relaxed);
     });
   };
   const std::vector<Triangle>& triangles = lattice.triangles();

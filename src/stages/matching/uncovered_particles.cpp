@@ -84,9 +84,11 @@ std::vector<std::uint32_t> find_uncovered_particles(const std::vector<Vec3f>& pa
     const Corners corners = corners_of(positions, t);
     const auto cover_each = [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t n = begin; n < end; ++n) {
+        std::atomic<char>& mark = is_covered[grid.index()[n]];
+        // Dozens of triangles cover the same particle.
+        if (mark.load(std::memory_order_relaxed) != 0) continue;
         const openvdb::Vec3d place(grid.x()[n], grid.y()[n], grid.z()[n]);
-        if (squared_distance(corners, place) > reach * reach) continue;
-        is_covered[grid.index()[n]].store(1, std::memory_order_relaxed);
+        if (squared_distance(corners, place) <= reach * reach) mark.store(1, std::memory_order_relaxed);
       }
     };
     grid.for_each_range(grid.cell_of(lower.cast<double>() - margin), grid.cell_of(upper.cast<double>() + margin),

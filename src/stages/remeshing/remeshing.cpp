@@ -1,6 +1,7 @@
 #include "particle_surface_tracker/stages/remeshing.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,10 +16,11 @@
 #include "mesh_cutting.h"
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/mesh_measures.h"
-#include "particle_surface_tracker/core/mesh_validation.h"
 #include "patch.h"
 #include "patch_places.h"
+#include "patched_connectivity.h"
 #include "small_components.h"
+#include "stages/upkeep/half_edges.h"
 #include "triangle_cuts.h"
 
 namespace particle_surface_tracker {
@@ -36,8 +38,10 @@ constexpr std::size_t kMostRounds = 40;
 
 class Remesher {
  public:
-  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request, TopologyCells* record)
+  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
+           std::vector<std::uint32_t>& twins, TopologyCells* record)
       : mesh_(mesh),
+        twins_(twins),
         lattice_(lattice),
         request_(request),
         record_(record),
@@ -52,6 +56,7 @@ class Remesher {
     report_.removed_components = small_.removed_count;
     mark_initial_cells();
     if (marked_.cells().empty() && small_.removed.empty()) return report_;
+    find_twins();
     while (!try_once()) {
       if (!widen()) {
         report_.gave_up = true;
@@ -62,6 +67,13 @@ class Remesher {
   }
 
  private:
+  /// In a mesh that is not closed and manifold no twins are taken for given, and all of the result is checked.
+  void find_twins() {
+    if (twins_fit(mesh_.triangles(), twins_)) return;
+    if (try_to_pair_half_edges(mesh_.vertex_count(), mesh_.triangles(), twins_).empty()) return;
+    twins_.assign(3 * mesh_.triangle_count(), kNoHalfEdge);
+  }
+
   void mark_initial_cells() {
     for (const Coord& cell : request_.flagged_cells) marked_.insert(cell);
     report_.flagged_cells = marked_.cells().size();
@@ -128,11 +140,11 @@ class Remesher {
     keep_places_apart(mesh_.positions(), lattice_.h(), patch);
     blend_filling(lattice_, patch);
 
-    TriangleMesh result = mesh_;
-    apply(patch, result);
-    if (!is_sound(result)) return false;
+    if (!is_finite(patch)) return false;
+    std::optional<PatchedConnectivity> connectivity = patched_connectivity(mesh_.triangles(), twins_, patch);
+    if (!connectivity) return false;
     if (record_ != nullptr) record_marked();
-    mesh_ = std::move(result);
+    apply(patch, std::move(*connectivity));
     report_.removed_triangles = patch.removed.size();
     report_.new_triangles = patch.triangles.size();
     report_.new_vertices = patch.vertices.size();
@@ -148,25 +160,16 @@ class Remesher {
     patch.removed.erase(std::unique(patch.removed.begin(), patch.removed.end()), patch.removed.end());
   }
 
-  static void apply(const Patch& patch, TriangleMesh& result) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(result.triangle_count() - patch.removed.size() + patch.triangles.size());
-    auto removed = patch.removed.begin();
-    for (std::uint32_t t = 0; t < result.triangle_count(); ++t) {
-      if (removed != patch.removed.end() && *removed == t) {
-        ++removed;
-      } else {
-        triangles.push_back(result.triangles()[t]);
-      }
-    }
-    triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
-    for (const PatchVertex& vertex : patch.vertices) result.append_vertex(vertex.position.cast<float>(), vertex.blend);
-    result.set_triangles(std::move(triangles));
-    result.remove_unused_vertices();
+  static bool is_finite(const Patch& patch) {
+    return std::all_of(patch.vertices.begin(), patch.vertices.end(),
+                       [](const PatchVertex& vertex) { return vertex.position.cast<float>().allFinite(); });
   }
 
-  static bool is_sound(const TriangleMesh& mesh) {
-    return mesh.triangles().empty() || describe_mesh_defects(mesh.positions(), mesh.triangles()).empty();
+  void apply(const Patch& patch, PatchedConnectivity&& connectivity) {
+    for (const PatchVertex& vertex : patch.vertices) mesh_.append_vertex(vertex.position.cast<float>(), vertex.blend);
+    mesh_.set_triangles(std::move(connectivity.triangles));
+    mesh_.remove_unused_vertices();
+    twins_ = std::move(connectivity.twins);
   }
 
   /// Marks more cells after an attempt that failed: those that cannot be cut, then those around all that are marked,
@@ -229,6 +232,7 @@ class Remesher {
   }
 
   TriangleMesh& mesh_;
+  std::vector<std::uint32_t>& twins_;
   const MeshLattice& lattice_;
   const RemeshingRequest& request_;
   TopologyCells* record_;
@@ -249,6 +253,12 @@ class Remesher {
 
 RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
                        TopologyCells* record) {
+  std::vector<std::uint32_t> twins;
+  return remesh(mesh, lattice, request, twins, record);
+}
+
+RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
+                       std::vector<std::uint32_t>& twins, TopologyCells* record) {
   if (request.nodes.size() != request.gamma.size()) {
     throw MeshError(fmt::format("re-meshing was given {} nodes of Γ but {} values; each node needs one",
                                 request.nodes.size(), request.gamma.size()));
@@ -259,7 +269,7 @@ RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const Rem
         "{} and {}; make the lattice anew after every change of the mesh",
         lattice.positions().size(), lattice.triangles().size(), mesh.vertex_count(), mesh.triangle_count()));
   }
-  return Remesher(mesh, lattice, request, record).run();
+  return Remesher(mesh, lattice, request, twins, record).run();
 }
 
 }  // namespace particle_surface_tracker

@@ -63,8 +63,8 @@ std::uint32_t umbrella_size(const std::vector<std::uint32_t>& twins, std::uint32
 
 }  // namespace
 
-void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
-                     std::vector<std::uint32_t>& twins) {
+std::string try_to_pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
+                                   std::vector<std::uint32_t>& twins) {
   const OutgoingHalfEdges outgoing(vertex_count, triangles);
   twins.assign(outgoing.entries.size(), kNoHalfEdge);
   // Every edge is looked up once, from its lower vertex.
@@ -81,24 +81,29 @@ void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& tria
   const auto unpaired = std::find(twins.begin(), twins.end(), kNoHalfEdge);
   if (unpaired != twins.end()) {
     const auto h = static_cast<std::uint32_t>(unpaired - twins.begin());
-    throw MeshError(
-        fmt::format("the edge between vertices {} and {} does not have one triangle on either side; mesh upkeep needs "
-                    "a closed, oriented 2-manifold",
-                    start_of(triangles, h), end_of(triangles, h)));
+    return fmt::format("the edge between vertices {} and {} does not have one triangle on either side",
+                       start_of(triangles, h), end_of(triangles, h));
   }
   for (std::size_t v = 0; v < vertex_count; ++v) {
     const std::uint32_t count = outgoing.begin[v + 1] - outgoing.begin[v];
     if (count > 0 && umbrella_size(twins, outgoing.entries[outgoing.begin[v]].half_edge) != count) {
-      throw MeshError(
-          fmt::format("vertex {} has more than one umbrella of triangles; mesh upkeep needs a 2-manifold", v));
+      return fmt::format("vertex {} has more than one umbrella of triangles", v);
     }
   }
+  return {};
+}
+
+void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
+                     std::vector<std::uint32_t>& twins) {
+  const std::string trouble = try_to_pair_half_edges(vertex_count, triangles, twins);
+  if (!trouble.empty()) throw MeshError(trouble + "; mesh upkeep needs a closed, oriented 2-manifold");
 }
 
 bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins,
                std::uint32_t triangle) {
   for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
     const std::uint32_t twin = twins[h];
+    if (twin >= twins.size()) return false;
     if (start_of(triangles, h) != end_of(triangles, twin) || end_of(triangles, h) != start_of(triangles, twin)) {
       return false;
     }
@@ -106,17 +111,20 @@ bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::ui
   return true;
 }
 
+bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins) {
+  if (twins.size() != 3 * triangles.size()) return false;
+  std::atomic<bool> fit = true;
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(triangles.size()), 2048),
+                    [&](const auto& range) {
+                      for (std::uint32_t t = range.begin(); t != range.end() && fit; ++t) {
+                        if (!twins_fit(triangles, twins, t)) fit = false;
+                      }
+                    });
+  return fit;
+}
+
 void update_twins(std::size_t vertex_count, const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& twins) {
-  std::atomic<bool> fit = twins.size() == 3 * triangles.size();
-  if (fit) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(triangles.size()), 2048),
-                      [&](const auto& range) {
-                        for (std::uint32_t t = range.begin(); t != range.end() && fit; ++t) {
-                          if (!twins_fit(triangles, twins, t)) fit = false;
-                        }
-                      });
-  }
-  if (!fit) pair_half_edges(vertex_count, triangles, twins);
+  if (!twins_fit(triangles, twins)) pair_half_edges(vertex_count, triangles, twins);
 }
 
 }  // namespace particle_surface_tracker

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "particle_surface_tracker/core/types.h"
@@ -34,9 +35,17 @@ inline std::uint32_t end_of(const std::vector<Triangle>& triangles, std::uint32_
 void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
                      std::vector<std::uint32_t>& twins);
 
+/// The same, without an exception.
+/// \return what is wrong with the mesh, or nothing; `twins` are of no use if there is something.
+std::string try_to_pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
+                                   std::vector<std::uint32_t>& twins);
+
 /// Whether the three half-edges of a triangle and their twins run along the same edges in opposite directions: false
-/// for pairs that belong to other triangles.
+/// for pairs that belong to other triangles, or are none.
 bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins, std::uint32_t triangle);
+
+/// Whether `twins` are those of these triangles.
+bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins);
 
 /// As pair_half_edges(), unless `twins` are those of these triangles already.
 void update_twins(std::size_t vertex_count, const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& twins);

@@ -10,6 +10,7 @@
 #include "particle_surface_tracker/stages/remeshing.h"
 #include "random_bodies.h"
 #include "sequences/mesh_judge.h"
+#include "stages/upkeep/half_edges.h"
 
 // Random cases; PST_FIRST_SEED and PST_CASES choose others than those that always run.
 
@@ -21,10 +22,23 @@ std::uint32_t number_from_environment(const char* name, std::uint32_t otherwise)
   return text == nullptr ? otherwise : static_cast<std::uint32_t>(std::stoul(text));
 }
 
-RemeshingReport remesh_case(const test::RemeshingCase& the_case, TriangleMesh& mesh) {
+RemeshingReport remesh_case(const test::RemeshingCase& the_case, TriangleMesh& mesh,
+                            std::vector<std::uint32_t>& twins) {
   mesh = the_case.mesh;
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), the_case.h);
-  return remesh(mesh, lattice, the_case.request);
+  return remesh(mesh, lattice, the_case.request, twins);
+}
+
+RemeshingReport remesh_case(const test::RemeshingCase& the_case, TriangleMesh& mesh) {
+  std::vector<std::uint32_t> twins;
+  return remesh_case(the_case, mesh, twins);
+}
+
+/// Twins are kept in step with what was changed.
+void expect_twins_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& twins) {
+  std::vector<std::uint32_t> expected;
+  pair_half_edges(mesh.vertex_count(), mesh.triangles(), expected);
+  EXPECT_EQ(twins, expected);
 }
 
 /// What stays of the mesh keeps order, ids and bits, and comes first.
@@ -86,8 +100,10 @@ TEST(RemeshingTorture, AlwaysGivesASoundMesh) {
     const test::RemeshingCase the_case = test::make_remeshing_case(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + the_case.description);
     TriangleMesh mesh;
-    const RemeshingReport report = remesh_case(the_case, mesh);
+    std::vector<std::uint32_t> twins;
+    const RemeshingReport report = remesh_case(the_case, mesh, twins);
     EXPECT_FALSE(report.gave_up);
+    if (report.changed()) expect_twins_of(mesh, twins);
     EXPECT_TRUE(test::find_surface_defects(mesh.vertex_count(), mesh.triangles()).none());
     EXPECT_TRUE(
         std::all_of(mesh.positions().begin(), mesh.positions().end(), [](const Vec3f& p) { return p.allFinite(); }));
