@@ -7,7 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "near_blocks.h"
+#include "near_vertices.h"
 #include "node_numbers.h"
 #include "triangle_extent.h"
 
@@ -15,7 +15,11 @@ namespace particle_surface_tracker {
 
 namespace {
 
-constexpr int kWidth = NearBlocks::kWidth;
+/// Nodes along an edge of a leaf.
+constexpr int kWidth = 8;
+
+/// Triangles are looked at by where they are if their length and what they explain are not more than this [cells].
+constexpr double kUsualReach = 8.0;
 
 /// The lattice places between which a node may be for a triangle to explain it.
 openvdb::CoordBBox nodes_around(const Corners& corners, double reach, double h) {
@@ -59,11 +63,11 @@ std::vector<openvdb::Coord> nodes_beyond_detail(const NodeMasks& set, const Mesh
   for (const openvdb::Coord& node : numbers.nodes()) all.expand(node);
   // Threads only ever set a mark, so their order does not matter.
   std::vector<std::atomic<char>> is_explained(numbers.nodes().size());
-  const NearBlocks blocks(set, h);
+  const NearVertices near(lattice.positions(), set, h, kUsualReach * h);
   const auto explain = [&](const Triangle& triangle) {
     const double reach = largest_delta(triangle, delta) + slack;
-    const double extent = longest_edge(lattice.positions(), triangle);
-    if (reach + extent < kWidth * h && !blocks.may_be_near(lattice.positions()[triangle[0]])) return;
+    if (!near.may_be_near(triangle[0]) && reach + longest_edge(lattice.positions(), triangle) <= kUsualReach * h)
+      return;
     const Corners corners = corners_of(lattice.positions(), triangle);
     openvdb::CoordBBox box = nodes_around(corners, reach, h);
     box.intersect(all);

@@ -38,6 +38,15 @@ inline double squared_distance(const Corners& corners, const openvdb::Vec3d& pla
   return (closest - place).lengthSqr();
 }
 
+/// False only if no edge of a triangle is longer than a length; in floats, with a margin for their rounding.
+/// \param squared_length [m²].
+inline bool may_be_longer(const std::vector<Vec3f>& positions, const Triangle& triangle, float squared_length) {
+  const Vec3f &a = positions[triangle[0]], &b = positions[triangle[1]], &c = positions[triangle[2]];
+  const float longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  constexpr float kMargin = 0.9999F;
+  return !(longest <= kMargin * squared_length);
+}
+
 /// Length of the longest edge of a triangle [m].
 inline double longest_edge(const std::vector<Vec3f>& positions, const Triangle& triangle) {
   double largest = 0.0;

@@ -5,7 +5,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "near_blocks.h"
+#include "near_vertices.h"
 #include "particle_surface_tracker/core/particle_grid.h"
 #include "stages/nodes/lattice_cell.h"
 #include "triangle_extent.h"
@@ -72,12 +72,16 @@ std::vector<std::uint32_t> find_uncovered_particles(const std::vector<Vec3f>& pa
   const Candidates candidates = find_candidates(particles, before, matched, h);
   if (candidates.indices.empty()) return {};
   const ParticleGrid grid(candidates.positions, reach);
-  const NearBlocks blocks(candidates.cells, h);
+  // A particle is up to h from the node of its cell. The few triangles that are longer than two cells are all looked
+  // at.
+  const double longest = 2.0 * h;
+  const auto squared_longest = static_cast<float>(longest * longest);
+  const NearVertices near(mesh.positions(), candidates.cells, h, reach + h + longest);
   // Threads only ever set a mark, so their order does not matter.
   std::vector<std::atomic<char>> is_covered(candidates.indices.size());
   const auto cover = [&](const Triangle& t) {
     const std::vector<Vec3f>& positions = mesh.positions();
-    if (reach + longest_edge(positions, t) < NearBlocks::kWidth * h && !blocks.may_be_near(positions[t[0]])) return;
+    if (!near.may_be_near(t[0]) && !may_be_longer(positions, t, squared_longest)) return;
     const Vec3f lower = positions[t[0]].cwiseMin(positions[t[1]]).cwiseMin(positions[t[2]]);
     const Vec3f upper = positions[t[0]].cwiseMax(positions[t[1]]).cwiseMax(positions[t[2]]);
     const Vec3d margin = Vec3d::Constant(reach);
