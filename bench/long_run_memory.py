@@ -12,7 +12,7 @@ from rosbags.rosbag1 import Reader, Writer
 from rosbags.typesys import Stores, get_typestore
 from tracking_report import spacing_of, track
 
-LARGEST_GROWTH = 0.01  # Of the peak, from frame 250 to the last.
+LARGEST_GROWTH = 0.01  # Of the peak, from when everything has been used once to the last frame.
 
 
 def write_loop(source, target, turn, frames):
@@ -30,6 +30,14 @@ def write_loop(source, target, turn, frames):
             writer.write(connection, time, types.serialize_ros1(cloud, "sensor_msgs/msg/PointCloud2"))
 
 
+def first_with_operation(lines):
+    """The first frame in which mesh upkeep did something: until then it has not used its working memory."""
+    for number, line in enumerate(lines):
+        if any(line["upkeep"][kind] for kind in ("splits", "collapses", "flips")):
+            return number
+    return 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=pathlib.Path, required=True, help="folder with two_drops.bag, .ply and .json")
@@ -45,9 +53,10 @@ def main():
     print(f"two_drops to frame {arguments.turn} and back, {len(lines)} frames:")
     for frame in sorted({len(lines) * k // 10 for k in range(1, 10)} | {len(lines) - 1}):
         print(f"  to frame {frame:>4}: peak memory {peaks[frame]:6.1f} MiB, most triangles {max(triangles[:frame + 1]):,}")
-    growth = peaks[-1] / peaks[len(lines) // 4] - 1
-    print(f"growth from frame {len(lines) // 4} on: {100 * growth:.2f} % (at most {100 * LARGEST_GROWTH:g} %): "
-          f"{'met' if growth <= LARGEST_GROWTH else 'NOT MET'}\n")
+    begin = max(len(lines) // 4, first_with_operation(lines))
+    growth = peaks[-1] / peaks[begin] - 1
+    print(f"growth from frame {begin} on, by when mesh upkeep has worked: {100 * growth:.2f} % "
+          f"(at most {100 * LARGEST_GROWTH:g} %): {'met' if growth <= LARGEST_GROWTH else 'NOT MET'}\n")
 
 
 if __name__ == "__main__":
