@@ -72,10 +72,13 @@ struct NodesAwayFromVertices {
 NodesAwayFromVertices nodes_away_from_vertices(const MeshLattice& lattice, const std::vector<float>& delta,
                                                const IsosurfaceQuery& isosurface, const LineSigns& mesh) {
   const double longest = kLargeEdge * lattice.h();
+  const auto squared_longest = static_cast<float>(longest * longest);
   std::vector<char> is_large(lattice.triangles().size(), 0);
   bool any = false;
   for (std::size_t t = 0; t < is_large.size(); ++t) {
-    if (longest_edge(lattice.positions(), lattice.triangles()[t]) <= longest) continue;
+    const Triangle& triangle = lattice.triangles()[t];
+    if (!may_be_longer(lattice.positions(), triangle, squared_longest)) continue;
+    if (longest_edge(lattice.positions(), triangle) <= longest) continue;
     is_large[t] = 1;
     any = true;
   }
