@@ -1,6 +1,7 @@
 #include "particle_surface_tracker/core/triangle_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -10,6 +11,11 @@
 namespace particle_surface_tracker {
 
 namespace {
+
+std::uint64_t new_connectivity() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 void check_indices(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -33,7 +39,7 @@ void check_ids(std::vector<std::uint32_t> ids, std::size_t vertex_count) {
 
 }  // namespace
 
-TriangleMesh::TriangleMesh() : delta_(attributes_.add(delta_name, 1, {0.0f})) {}
+TriangleMesh::TriangleMesh() : connectivity_(new_connectivity()), delta_(attributes_.add(delta_name, 1, {0.0f})) {}
 
 TriangleMesh::TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> triangles) : TriangleMesh() {
   check_indices(triangles, positions.size());
@@ -56,6 +62,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3f> positions, std::vector<Triangle> t
 void TriangleMesh::set_triangles(std::vector<Triangle> triangles) {
   check_indices(triangles, positions_.size());
   triangles_ = std::move(triangles);
+  connectivity_ = new_connectivity();
 }
 
 void TriangleMesh::reserve_ids(std::uint32_t next_id) {
@@ -92,6 +99,7 @@ void TriangleMesh::remove_unused_vertices() {
   for (Triangle& triangle : triangles_) {
     for (std::uint32_t& vertex : triangle) vertex = new_index[vertex];
   }
+  connectivity_ = new_connectivity();
 }
 
 }  // namespace particle_surface_tracker

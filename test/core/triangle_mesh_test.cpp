@@ -62,6 +62,22 @@ TEST(TriangleMesh, ANewVertexBlendsAttributesAndGetsAnIdThatNobodyHad) {
   EXPECT_FLOAT_EQ(mesh.attributes()[1].values[9], 0.5f);
 }
 
+TEST(TriangleMesh, ConnectivityIsTheSameOnlyWhereTheTrianglesAre) {
+  const TriangleMesh mesh({Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(5, 5, 5)}, {{0, 1, 2}});
+  EXPECT_NE(mesh.connectivity(), 0U);
+  TriangleMesh changed = mesh;
+  EXPECT_EQ(changed.connectivity(), mesh.connectivity());
+  changed.positions()[0] = Vec3f(9, 9, 9);
+  changed.append_vertex(Vec3f(0, 0, 1), {{0, 1.0}});
+  EXPECT_EQ(changed.connectivity(), mesh.connectivity());
+  changed.remove_unused_vertices();
+  const std::uint64_t without_unused = changed.connectivity();
+  EXPECT_NE(without_unused, mesh.connectivity());
+  changed.set_triangles({});
+  EXPECT_NE(changed.connectivity(), without_unused);
+  EXPECT_NE(TriangleMesh(mesh.positions(), mesh.triangles()).connectivity(), mesh.connectivity());
+}
+
 TEST(VertexAttributes, LateAttributesAndLateVerticesGetTheInitialValue) {
   VertexAttributes attributes;
   attributes.add("first", 1, {7.0f});

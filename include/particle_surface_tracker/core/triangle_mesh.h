@@ -34,6 +34,10 @@ class TriangleMesh {
   std::vector<Vec3f>& positions() { return positions_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
+  /// A number that changes whenever the triangles do, never 0: meshes with the same one have the same triangles. A copy
+  /// keeps it.
+  std::uint64_t connectivity() const { return connectivity_; }
+
   /// Replaces all triangles.
   /// \throw MeshError if one names a vertex that is not there; the mesh is unchanged then.
   void set_triangles(std::vector<Triangle> triangles);
@@ -70,6 +74,7 @@ class TriangleMesh {
  private:
   std::vector<Vec3f> positions_;
   std::vector<Triangle> triangles_;
+  std::uint64_t connectivity_;
   std::vector<std::uint32_t> ids_;
   std::uint32_t next_id_ = 0;
   VertexAttributes attributes_;

@@ -7,6 +7,7 @@
 
 #include <openvdb/Types.h>
 
+#include "particle_surface_tracker/core/mesh_twins.h"
 #include "particle_surface_tracker/core/topology_cells.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/stages/mesh_lattice.h"
@@ -57,12 +58,12 @@ struct RemeshingReport {
 ///
 /// Components that cross no edge of the lattice are removed unless φ confirms them. A mesh may end up empty.
 /// \param lattice of this very mesh.
-/// \param twins for each half-edge of the mesh the opposite one, as far as known (UpkeepMemory); kept in step.
+/// \param twins of the mesh, as far as known (UpkeepMemory); kept in step.
 /// \param record receives the cells of each kind, and the changed nodes; null: nothing is recorded.
 /// \return what was done; if `gave_up`, the mesh is unchanged.
 /// \throw MeshError if the numbers of nodes and values in the request differ, or the lattice is that of another mesh.
 RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
-                       std::vector<std::uint32_t>& twins, TopologyCells* record = nullptr);
+                       MeshTwins& twins, TopologyCells* record = nullptr);
 RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
                        TopologyCells* record = nullptr);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "particle_surface_tracker/core/mesh_twins.h"
 #include "particle_surface_tracker/core/parameters.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 
@@ -28,7 +29,7 @@ struct UpkeepReport {
 /// Memory that can be kept between calls of keep_up(), so that a call with nothing to do allocates nothing. It never
 /// changes a result, whatever mesh it was used for before.
 struct UpkeepMemory {
-  std::vector<std::uint32_t> twins;                  ///< For each half-edge the opposite one, as far as known.
+  MeshTwins twins;                                   ///< As far as known.
   std::vector<std::vector<std::uint32_t>> suspects;  ///< Triangles with something to mend, in each block of them.
 };
 

@@ -38,8 +38,8 @@ constexpr std::size_t kMostRounds = 40;
 
 class Remesher {
  public:
-  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
-           std::vector<std::uint32_t>& twins, TopologyCells* record)
+  Remesher(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request, MeshTwins& twins,
+           TopologyCells* record)
       : mesh_(mesh),
         twins_(twins),
         lattice_(lattice),
@@ -69,9 +69,8 @@ class Remesher {
  private:
   /// In a mesh that is not closed and manifold no twins are taken for given, and all of the result is checked.
   void find_twins() {
-    if (twins_fit(mesh_.triangles(), twins_)) return;
-    if (try_to_pair_half_edges(mesh_.vertex_count(), mesh_.triangles(), twins_).empty()) return;
-    twins_.assign(3 * mesh_.triangle_count(), kNoHalfEdge);
+    if (try_to_update_twins(mesh_, twins_).empty()) return;
+    twins_.of_half_edges.assign(3 * mesh_.triangle_count(), kNoHalfEdge);
   }
 
   void mark_initial_cells() {
@@ -141,7 +140,8 @@ class Remesher {
     blend_filling(lattice_, patch);
 
     if (!is_finite(patch)) return false;
-    std::optional<PatchedConnectivity> connectivity = patched_connectivity(mesh_.triangles(), twins_, patch);
+    std::optional<PatchedConnectivity> connectivity =
+        patched_connectivity(mesh_.triangles(), twins_.of_half_edges, patch);
     if (!connectivity) return false;
     if (record_ != nullptr) record_marked();
     apply(patch, std::move(*connectivity));
@@ -169,7 +169,7 @@ class Remesher {
     for (const PatchVertex& vertex : patch.vertices) mesh_.append_vertex(vertex.position.cast<float>(), vertex.blend);
     mesh_.set_triangles(std::move(connectivity.triangles));
     mesh_.remove_unused_vertices();
-    twins_ = std::move(connectivity.twins);
+    twins_ = {std::move(connectivity.twins), mesh_.connectivity()};
   }
 
   /// Marks more cells after an attempt that failed: those that cannot be cut, then those around all that are marked,
@@ -232,7 +232,7 @@ class Remesher {
   }
 
   TriangleMesh& mesh_;
-  std::vector<std::uint32_t>& twins_;
+  MeshTwins& twins_;
   const MeshLattice& lattice_;
   const RemeshingRequest& request_;
   TopologyCells* record_;
@@ -253,12 +253,12 @@ class Remesher {
 
 RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
                        TopologyCells* record) {
-  std::vector<std::uint32_t> twins;
+  MeshTwins twins;
   return remesh(mesh, lattice, request, twins, record);
 }
 
 RemeshingReport remesh(TriangleMesh& mesh, const MeshLattice& lattice, const RemeshingRequest& request,
-                       std::vector<std::uint32_t>& twins, TopologyCells* record) {
+                       MeshTwins& twins, TopologyCells* record) {
   if (request.nodes.size() != request.gamma.size()) {
     throw MeshError(fmt::format("re-meshing was given {} nodes of Γ but {} values; each node needs one",
                                 request.nodes.size(), request.gamma.size()));

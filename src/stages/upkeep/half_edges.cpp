@@ -1,11 +1,8 @@
 #include "half_edges.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "particle_surface_tracker/core/error.h"
 
@@ -61,8 +58,7 @@ std::uint32_t umbrella_size(const std::vector<std::uint32_t>& twins, std::uint32
   return size;
 }
 
-}  // namespace
-
+/// \return what is wrong with the mesh, or nothing; `twins` are of no use if there is something.
 std::string try_to_pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
                                    std::vector<std::uint32_t>& twins) {
   const OutgoingHalfEdges outgoing(vertex_count, triangles);
@@ -93,38 +89,27 @@ std::string try_to_pair_half_edges(std::size_t vertex_count, const std::vector<T
   return {};
 }
 
-void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
-                     std::vector<std::uint32_t>& twins) {
-  const std::string trouble = try_to_pair_half_edges(vertex_count, triangles, twins);
+void require_none(const std::string& trouble) {
   if (!trouble.empty()) throw MeshError(trouble + "; mesh upkeep needs a closed, oriented 2-manifold");
 }
 
-bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins,
-               std::uint32_t triangle) {
-  for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-    const std::uint32_t twin = twins[h];
-    if (twin >= twins.size()) return false;
-    if (start_of(triangles, h) != end_of(triangles, twin) || end_of(triangles, h) != start_of(triangles, twin)) {
-      return false;
-    }
-  }
-  return true;
+}  // namespace
+
+void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
+                     std::vector<std::uint32_t>& twins) {
+  require_none(try_to_pair_half_edges(vertex_count, triangles, twins));
 }
 
-bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins) {
-  if (twins.size() != 3 * triangles.size()) return false;
-  std::atomic<bool> fit = true;
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(triangles.size()), 2048),
-                    [&](const auto& range) {
-                      for (std::uint32_t t = range.begin(); t != range.end() && fit; ++t) {
-                        if (!twins_fit(triangles, twins, t)) fit = false;
-                      }
-                    });
-  return fit;
+std::string try_to_update_twins(const TriangleMesh& mesh, MeshTwins& twins) {
+  if (twins.connectivity == mesh.connectivity()) return {};
+  twins.connectivity = 0;
+  std::string trouble = try_to_pair_half_edges(mesh.vertex_count(), mesh.triangles(), twins.of_half_edges);
+  if (trouble.empty()) twins.connectivity = mesh.connectivity();
+  return trouble;
 }
 
-void update_twins(std::size_t vertex_count, const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& twins) {
-  if (!twins_fit(triangles, twins)) pair_half_edges(vertex_count, triangles, twins);
+void update_twins(const TriangleMesh& mesh, MeshTwins& twins) {
+  require_none(try_to_update_twins(mesh, twins));
 }
 
 }  // namespace particle_surface_tracker

@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "particle_surface_tracker/core/types.h"
+#include "particle_surface_tracker/core/mesh_twins.h"
+#include "particle_surface_tracker/core/triangle_mesh.h"
 
 namespace particle_surface_tracker {
-
-// Half-edge 3 t + k runs from corner k of triangle t to the next corner, counter-clockwise.
 
 constexpr std::uint32_t kNoHalfEdge = 0xffffffffU;
 
@@ -35,19 +34,12 @@ inline std::uint32_t end_of(const std::vector<Triangle>& triangles, std::uint32_
 void pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
                      std::vector<std::uint32_t>& twins);
 
+/// Makes the twins of a mesh, unless they are those of its triangles already.
+/// \throw MeshError as pair_half_edges(); `twins` are those of no mesh then.
+void update_twins(const TriangleMesh& mesh, MeshTwins& twins);
+
 /// The same, without an exception.
-/// \return what is wrong with the mesh, or nothing; `twins` are of no use if there is something.
-std::string try_to_pair_half_edges(std::size_t vertex_count, const std::vector<Triangle>& triangles,
-                                   std::vector<std::uint32_t>& twins);
-
-/// Whether the three half-edges of a triangle and their twins run along the same edges in opposite directions: false
-/// for pairs that belong to other triangles, or are none.
-bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins, std::uint32_t triangle);
-
-/// Whether `twins` are those of these triangles.
-bool twins_fit(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& twins);
-
-/// As pair_half_edges(), unless `twins` are those of these triangles already.
-void update_twins(std::size_t vertex_count, const std::vector<Triangle>& triangles, std::vector<std::uint32_t>& twins);
+/// \return what is wrong with the mesh, or nothing.
+std::string try_to_update_twins(const TriangleMesh& mesh, MeshTwins& twins);
 
 }  // namespace particle_surface_tracker

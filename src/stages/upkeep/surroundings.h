@@ -29,8 +29,8 @@ class Surroundings {
   /// Enters a triangle that is new or has changed.
   void enter(std::uint32_t triangle);
 
-  /// Calls visit(entry) for all entries whose box meets `box`, now and then twice, also for those of triangles that have
-  /// changed since they were entered or are gone.
+  /// Calls visit(entry) for all entries whose box meets `box`, now and then twice, also for those of triangles that
+  /// have changed since they were entered or are gone.
   template <typename Visit>
   void for_each_near(const Eigen::AlignedBox3f& box, Visit&& visit) const {
     for (std::size_t level = 0; level < kLevels; ++level) {

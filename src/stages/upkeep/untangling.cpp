@@ -218,8 +218,8 @@ class Untangling {
 }  // namespace
 
 UntanglingReport untangle(TriangleMesh& mesh, UpkeepMemory& memory) {
-  update_twins(mesh.vertex_count(), mesh.triangles(), memory.twins);
-  return Untangling(mesh, memory.twins).run();
+  update_twins(mesh, memory.twins);
+  return Untangling(mesh, memory.twins.of_half_edges).run();
 }
 
 }  // namespace particle_surface_tracker

@@ -39,7 +39,7 @@ void for_each_block(const TriangleMesh& mesh, Visit&& visit) {
 bool find_suspects(const TriangleMesh& mesh, const Tolerances& tolerances, UpkeepMemory& memory) {
   memory.suspects.resize(std::max<std::size_t>(memory.suspects.size(), block_count(mesh)));
   for (auto& block : memory.suspects) block.clear();
-  const SurfaceView surface{mesh.positions(), mesh.triangles(), memory.twins};
+  const SurfaceView surface{mesh.positions(), mesh.triangles(), memory.twins.of_half_edges};
   for_each_block(mesh, [&](std::uint32_t block, std::uint32_t first, std::uint32_t last) {
     std::vector<std::uint32_t>& suspects = memory.suspects[block];
     for (std::uint32_t t = first; t < last; ++t) {
@@ -56,7 +56,8 @@ class Upkeep {
  public:
   Upkeep(TriangleMesh& mesh, const BirthRecords& births, const Tolerances& tolerances, const Parameters& parameters,
          UpkeepMemory& memory)
-      : surface_(mesh, memory.twins),
+      : twins_(memory.twins),
+        surface_(mesh, memory.twins.of_half_edges),
         tolerances_(tolerances),
         operations_(surface_, births, tolerances, parameters.dx_gamma * parameters.particle_spacing),
         suspects_(memory.suspects),
@@ -64,6 +65,8 @@ class Upkeep {
         attempts_left_(kAttemptsPerTriangle * mesh.triangle_count() + kLeastAttempts) {}
 
   UpkeepReport run() {
+    // Until the mesh has the triangles that they belong to.
+    twins_.connectivity = 0;
     for (const auto& block : suspects_) {
       for (const std::uint32_t t : block) enqueue_triangle(t, Sides::kLowerHalfEdge);
     }
@@ -71,6 +74,7 @@ class Upkeep {
     for (int pass = 1; pass < kMaxPasses && enqueue_what_may_have_become_possible(); ++pass) work_through_queue();
     report_.refused = refused_.size();
     if (done_ > 0) report_.fresh = surface_.finish();
+    twins_.connectivity = surface_.mesh().connectivity();
     return std::move(report_);
   }
 
@@ -242,6 +246,7 @@ class Upkeep {
     return flip(longest) || collapse(shortest, report_.sliver_collapses);
   }
 
+  MeshTwins& twins_;
   EditableSurface surface_;
   const Tolerances& tolerances_;
   Operations operations_;
@@ -258,9 +263,9 @@ class Upkeep {
 }  // namespace
 
 UpkeepReport keep_up(TriangleMesh& mesh, const Parameters& parameters, UpkeepMemory& memory) {
-  update_twins(mesh.vertex_count(), mesh.triangles(), memory.twins);
+  update_twins(mesh, memory.twins);
   BirthRecords births(mesh);
-  if (!births.all_noted()) births.note_missing(memory.twins);
+  if (!births.all_noted()) births.note_missing(memory.twins.of_half_edges);
   const Tolerances tolerances(births, parameters);
   if (!find_suspects(mesh, tolerances, memory)) return {};
   return Upkeep(mesh, births, tolerances, parameters, memory).run();

@@ -22,23 +22,23 @@ std::uint32_t number_from_environment(const char* name, std::uint32_t otherwise)
   return text == nullptr ? otherwise : static_cast<std::uint32_t>(std::stoul(text));
 }
 
-RemeshingReport remesh_case(const test::RemeshingCase& the_case, TriangleMesh& mesh,
-                            std::vector<std::uint32_t>& twins) {
+RemeshingReport remesh_case(const test::RemeshingCase& the_case, TriangleMesh& mesh, MeshTwins& twins) {
   mesh = the_case.mesh;
   const MeshLattice lattice(mesh.positions(), mesh.triangles(), the_case.h);
   return remesh(mesh, lattice, the_case.request, twins);
 }
 
 RemeshingReport remesh_case(const test::RemeshingCase& the_case, TriangleMesh& mesh) {
-  std::vector<std::uint32_t> twins;
+  MeshTwins twins;
   return remesh_case(the_case, mesh, twins);
 }
 
 /// Twins are kept in step with what was changed.
-void expect_twins_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& twins) {
+void expect_twins_of(const TriangleMesh& mesh, const MeshTwins& twins) {
   std::vector<std::uint32_t> expected;
   pair_half_edges(mesh.vertex_count(), mesh.triangles(), expected);
-  EXPECT_EQ(twins, expected);
+  EXPECT_EQ(twins.connectivity, mesh.connectivity());
+  EXPECT_EQ(twins.of_half_edges, expected);
 }
 
 /// What stays of the mesh keeps order, ids and bits, and comes first.
@@ -100,7 +100,7 @@ TEST(RemeshingTorture, AlwaysGivesASoundMesh) {
     const test::RemeshingCase the_case = test::make_remeshing_case(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + the_case.description);
     TriangleMesh mesh;
-    std::vector<std::uint32_t> twins;
+    MeshTwins twins;
     const RemeshingReport report = remesh_case(the_case, mesh, twins);
     EXPECT_FALSE(report.gave_up);
     if (report.changed()) expect_twins_of(mesh, twins);
