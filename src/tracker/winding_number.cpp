@@ -61,12 +61,18 @@ class Columns {
 };
 
 /// On which side of the edge a→b, seen along x, a point lies. Both triangles at an edge ask in the same order of its
-/// ends, so that a point exactly on it is in one of them.
+/// ends, so that a point exactly on it is in one of them. Rays from a point of a grid pass through vertices and along
+/// edges: so all are decided for a point that is moved by an infinitely small step along y, and by a much smaller one
+/// along z.
 bool is_left_of(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, const Vec3d& p) {
   if (a > b) return !is_left_of(mesh, b, a, p);
   const Vec3d from = mesh.positions()[a].cast<double>();
   const Vec3d to = mesh.positions()[b].cast<double>();
-  return (to.y() - from.y()) * (p.z() - from.z()) - (to.z() - from.z()) * (p.y() - from.y()) >= 0.0;
+  const double y = to.y() - from.y();
+  const double z = to.z() - from.z();
+  const double side = y * (p.z() - from.z()) - z * (p.y() - from.y());
+  if (side != 0.0) return side > 0.0;
+  return z != 0.0 ? z < 0.0 : y > 0.0;
 }
 
 /// +1 or −1 if the ray from p along x passes through the triangle out of or into the solid, else 0.

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,6 +79,43 @@ TEST(MeshFit, AnAbsurdSpacingIsFound) {
 TEST(MeshFit, ASingleParticleFitsTheDropAroundIt) {
   const ParticleFrame one = make_particle_frame(0, {{0, 0, 0}}, {5});
   EXPECT_EQ(mismatch(test::make_sphere(Vec3d::Zero(), 0.5 * r, 2), one), "fits");
+}
+
+/// Every triangle as four, with vertices at the middles of its edges.
+TriangleMesh halved(const TriangleMesh& mesh) {
+  std::vector<Vec3f> positions = mesh.positions();
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [place, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(positions.size()));
+    if (is_new) positions.push_back(0.5F * (positions[a] + positions[b]));
+    return place->second;
+  };
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c] : mesh.triangles()) {
+    const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    triangles.insert(triangles.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  return TriangleMesh(std::move(positions), std::move(triangles));
+}
+
+// Particles of a grid that the vertices lie on, too: rays through them meet vertices and edges only.
+TEST(MeshFit, ParticlesInLineWithVerticesAreInside) {
+  constexpr int n = 8;
+  constexpr float step = 0.125F;  // exact
+  TriangleMesh mesh = test::make_box(Vec3d::Zero(), Vec3d::Constant(n * static_cast<double>(step)));
+  for (int level = 0; level < 3; ++level) mesh = halved(mesh);
+  std::vector<Vec3f> positions;
+  std::vector<std::uint32_t> ids;
+  for (int i = 1; i < n; ++i) {
+    for (int j = 1; j < n; ++j) {
+      for (int k = 1; k < n; ++k) {
+        positions.emplace_back(step * static_cast<float>(i), step * static_cast<float>(j),
+                               step * static_cast<float>(k));
+        ids.push_back(static_cast<std::uint32_t>(ids.size()));
+      }
+    }
+  }
+  EXPECT_EQ(mismatch(mesh, make_particle_frame(0, positions, ids), step), "fits");
 }
 
 }  // namespace
