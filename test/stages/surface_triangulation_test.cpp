@@ -194,5 +194,22 @@ TEST(SurfaceTriangulation, ThreadsDoNotChangeIt) {
   }
 }
 
+// Where floats are coarse, vertices on several edges of a node must not fall on one place.
+TEST(SurfaceTriangulation, FarFromTheOriginNoTwoVerticesAreAtOnePlace) {
+  auto field = openvdb::FloatGrid::create(0.0f);
+  const Coord node(200000, -160000, 200000);
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int k = -1; k <= 1; ++k) {
+        field->tree().setValue(node.offsetBy(i, j, k), i == 0 && j == 0 && k == 0 ? -1e-4f : 1);
+      }
+    }
+  }
+  const SurfaceTriangulation surface = triangulate_zero_level(*field, 0.01);
+  std::set<std::array<float, 3>> places;
+  for (const Vec3f& v : surface.vertices) places.insert({v.x(), v.y(), v.z()});
+  EXPECT_EQ(places.size(), surface.vertices.size());
+}
+
 }  // namespace
 }  // namespace particle_surface_tracker

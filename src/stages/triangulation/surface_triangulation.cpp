@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cell_loops.h"
@@ -18,6 +20,15 @@ using openvdb::Coord;
 
 /// A vertex is never closer to a node than this part of the edge.
 constexpr double kClosestToNode = 0.001;
+
+/// Nor than so many steps of the floats that positions are stored in: far from the origin these are long, and vertices
+/// on several edges of a node would fall on one place.
+constexpr double kClosestSteps = 2.0;
+
+/// The distance between floats at a coordinate, in its unit.
+double resolution(double coordinate) {
+  return std::abs(coordinate) * static_cast<double>(std::numeric_limits<float>::epsilon());
+}
 
 /// Where each leaf's part of the output begins.
 struct Begin {
@@ -112,8 +123,9 @@ void Triangulator::place_vertices(std::size_t number) {
         const NodePlace upper = corner_place(offset, 1 << axis);
         const double a = leaf.leaf->buffer().data()[offset];
         const double b = cut_.leaves()[leaf.neighbors[upper.neighbor]].leaf->buffer().data()[upper.offset];
-        const double t = std::clamp(a / (a - b), kClosestToNode, 1.0 - kClosestToNode);
         Vec3d node(origin.x() + x, origin.y() + (bit >> 3), origin.z() + (bit & 7));
+        const double closest = std::max(kClosestToNode, kClosestSteps * resolution(node[axis]));
+        const double t = std::clamp(a / (a - b), closest, std::max(closest, 1.0 - closest));
         node[axis] += t;
         *next++ = (dx_ * node).cast<float>();
       });
