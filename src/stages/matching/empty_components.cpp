@@ -1,6 +1,7 @@
 #include "particle_surface_tracker/stages/empty_components.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <Eigen/Geometry>
@@ -15,6 +16,10 @@ namespace {
 
 /// A component with more triangles is no crumb.
 constexpr std::size_t kLargestCrumb = 500;
+
+/// A component that encloses less is no drop and no bubble, whoever is near it [r³]: the motion flattens it, and once
+/// it is inside out nothing finds it any more.
+constexpr double kLargestSpeck = 1.0e-3;
 
 struct Component {
   std::size_t triangles = 0;
@@ -60,12 +65,17 @@ std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_
   const std::vector<std::uint32_t> component_of = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
   if (count <= 1) return 0;
   const std::vector<Component> components = describe_components(mesh, component_of, count, first_new_id);
-  std::vector<std::uint32_t> crumbs;
+  std::vector<std::uint32_t> crumbs, specks;
   NodeMasks near;  // cells of r that are near crumbs
   for (std::uint32_t c = 0; c < count; ++c) {
     const Component& component = components[c];
-    if (!component.is_new || component.triangles > kLargestCrumb || component.six_volumes <= 0.0) continue;
-    if (may_enclose(components, c)) continue;
+    if (!component.is_new || component.triangles > kLargestCrumb) continue;
+    const bool is_speck = std::abs(component.six_volumes) < 6.0 * kLargestSpeck * r * r * r;
+    if ((component.six_volumes <= 0.0 && !is_speck) || may_enclose(components, c)) continue;
+    if (is_speck) {
+      specks.push_back(c);
+      continue;
+    }
     crumbs.push_back(c);
     openvdb::CoordBBox cells(cell_of(component.box.min() / r), cell_of(component.box.max() / r));
     cells.expand(1);
@@ -79,6 +89,9 @@ std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_
                        [&](std::uint32_t c) { return components[c].box.squaredExteriorDistance(place) <= r * r; }),
         crumbs.end());
   }
+  const auto middle = static_cast<std::ptrdiff_t>(crumbs.size());
+  crumbs.insert(crumbs.end(), specks.begin(), specks.end());
+  std::inplace_merge(crumbs.begin(), crumbs.begin() + middle, crumbs.end());
   if (crumbs.empty()) return 0;
   std::vector<Triangle> kept;
   std::copy_if(mesh.triangles().begin(), mesh.triangles().end(), std::back_inserter(kept), [&](const Triangle& t) {

@@ -57,5 +57,14 @@ TEST(EmptyComponents, ParticlesFarFromTheWorldAreNoTrouble) {
   EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(1e30F, 0, 0)}, kSpacing), 1U);
 }
 
+TEST(EmptyComponents, SpecksAreRemovedAlsoInsideOutAndBesideAParticle) {
+  const TriangleMesh speck = test::make_sphere(Vec3d(0.8, 0, 0), 0.005, 0);
+  for (const TriangleMesh& one : {speck, test::turned(speck)}) {
+    TriangleMesh mesh = test::joined({kBody, one});
+    EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0.75F, 0, 0)}, kSpacing), 1U);
+    EXPECT_EQ(mesh.triangles(), kBody.triangles());
+  }
+}
+
 }  // namespace
 }  // namespace particle_surface_tracker
