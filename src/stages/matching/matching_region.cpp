@@ -98,4 +98,23 @@ bool is_near_rim(const NodeMasks& region, const openvdb::Coord& node) {
   return false;
 }
 
+void settle(std::vector<openvdb::Coord>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+NodeMasks masks_of(const std::vector<openvdb::Coord>& nodes) {
+  NodeMasks masks;
+  for (const openvdb::Coord& node : nodes) masks.insert(node);
+  return masks;
+}
+
+NodeMasks masks_of(const std::vector<std::vector<openvdb::Coord>>& lists) {
+  NodeMasks masks;
+  for (const std::vector<openvdb::Coord>& list : lists) {
+    for (const openvdb::Coord& node : list) masks.insert(node);
+  }
+  return masks;
+}
+
 }  // namespace particle_surface_tracker

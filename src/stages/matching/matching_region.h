@@ -37,4 +37,11 @@ MatchingNodes classify_nodes(const NodeMasks& region, const NodeMasks& flagged, 
 /// True if a node belongs to the outermost layer of a region or is next to it.
 bool is_near_rim(const NodeMasks& region, const openvdb::Coord& node);
 
+/// Sorts nodes and drops those that are there twice.
+void settle(std::vector<openvdb::Coord>& nodes);
+
+/// The nodes of one or of many lists as a set.
+NodeMasks masks_of(const std::vector<openvdb::Coord>& nodes);
+NodeMasks masks_of(const std::vector<std::vector<openvdb::Coord>>& lists);
+
 }  // namespace particle_surface_tracker

@@ -100,6 +100,24 @@ TEST(DetailConflict, AParticleThatTheMeshLostGetsASurface) {
   EXPECT_EQ(inside.count({2, 0, 0}), 1U);
 }
 
+// The ways are looked for together; each is the one that would be found for its particle alone.
+TEST(DetailConflict, ManyParticlesGetWhatEachWouldGet) {
+  const TriangleMesh mesh = make_mesh(kBody);
+  const MeshLattice lattice(mesh.positions(), mesh.triangles(), kH);
+  const ImplicitSurface surface = make_surface(either(either(kBody, kDrop), kNeck));
+  const IsosurfaceQuery isosurface(surface, kH);
+  std::vector<Vec3f> particles;
+  for (int n = 0; n < 14; ++n) particles.emplace_back(0.6F - 0.05F * static_cast<float>(n), 0.01F, 0.02F);
+  std::vector<openvdb::Coord> each;
+  for (const Vec3f& particle : particles) {
+    const auto nodes = find_conflicting_nodes(MeshQuery(lattice), {}, {particle}, isosurface, make_parameters());
+    each.insert(each.end(), nodes.begin(), nodes.end());
+  }
+  std::sort(each.begin(), each.end());
+  each.erase(std::unique(each.begin(), each.end()), each.end());
+  EXPECT_EQ(find_conflicting_nodes(MeshQuery(lattice), {}, particles, isosurface, make_parameters()), each);
+}
+
 TEST(UncoveredParticles, AreOutsideAndFarFromTheMesh) {
   const TriangleMesh mesh = make_mesh(kBody);
   const ImplicitSurface surface = make_surface(either(kBody, ball({0.11, 0.01, 0.02}, 0.13)));
