@@ -36,8 +36,16 @@ std::vector<Range> delta_around(const TriangleMesh& mesh, const std::vector<Fres
 
 }  // namespace
 
-double measure_fresh_delta(TriangleMesh& mesh, const std::vector<FreshVertex>& vertices, NarrowBand& band,
+double measure_fresh_delta(TriangleMesh& mesh, const std::vector<FreshVertex>& fresh, NarrowBand& band,
                            const Parameters& parameters, FrameReport& report) {
+  std::vector<FreshVertex> vertices;
+  for (const FreshVertex& vertex : fresh) {
+    if (vertex.has_detail) {
+      vertices.push_back(vertex);
+    } else {
+      mesh.delta()[vertex.index] = 0.0F;
+    }
+  }
   if (vertices.empty()) return 0.0;
   std::vector<Vec3f> positions;
   positions.reserve(vertices.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fresh_delta.h"
+#include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/stages/component_disagreement.h"
 #include "particle_surface_tracker/stages/detail_conflict.h"
 #include "particle_surface_tracker/stages/disagreement.h"
@@ -68,8 +69,22 @@ struct FreshIds {
   std::vector<std::uint32_t> remeshed;  ///< Increasing: those that were moved where re-meshing had made them.
 };
 
+/// Marks the vertices of components that have a vertex of the first mesh.
+std::vector<char> mark_detailed(const TriangleMesh& mesh, std::uint32_t original_vertices) {
+  std::size_t count = 0;
+  const std::vector<std::uint32_t> component = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
+  std::vector<char> is_detailed(count, 0);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.ids()[v] < original_vertices) is_detailed[component[v]] = 1;
+  }
+  std::vector<char> marks(mesh.vertex_count());
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) marks[v] = is_detailed[component[v]];
+  return marks;
+}
+
 /// All vertices that are new or have moved, in order.
-std::vector<FreshVertex> fresh_vertices(const TriangleMesh& mesh, const FreshIds& ids) {
+std::vector<FreshVertex> fresh_vertices(const TriangleMesh& mesh, const FreshIds& ids,
+                                        std::uint32_t original_vertices) {
   const auto is_in = [](const std::vector<std::uint32_t>& set, std::uint32_t id) {
     return std::binary_search(set.begin(), set.end(), id);
   };
@@ -78,9 +93,12 @@ std::vector<FreshVertex> fresh_vertices(const TriangleMesh& mesh, const FreshIds
     const std::uint32_t id = mesh.ids()[v];
     const bool is_remeshed = (id >= ids.first_remeshed && id < ids.first_upkeep) || is_in(ids.remeshed, id);
     if (is_remeshed || id >= ids.first_upkeep || is_in(ids.relaxed, id) || is_in(ids.kept_up, id)) {
-      fresh.push_back({v, is_remeshed});
+      fresh.push_back({v, is_remeshed, true});
     }
   }
+  if (fresh.empty()) return fresh;
+  const std::vector<char> is_detailed = mark_detailed(mesh, original_vertices);
+  for (FreshVertex& vertex : fresh) vertex.has_detail = is_detailed[vertex.index] != 0;
   return fresh;
 }
 
@@ -190,7 +208,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     fresh.remeshed = ids_of(mesh, cover_particles(mesh, original_vertices, near, r));
   }
 
-  return measure_fresh_delta(mesh, fresh_vertices(mesh, fresh), band, parameters, report);
+  return measure_fresh_delta(mesh, fresh_vertices(mesh, fresh, original_vertices), band, parameters, report);
 }
 
 }  // namespace particle_surface_tracker

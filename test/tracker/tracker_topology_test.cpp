@@ -50,6 +50,45 @@ TEST(TrackerTopology, FlagsVerticesWhoseLiquidHasGone) {
   EXPECT_EQ(matching.mesh().positions(), first_drop);
 }
 
+/// Volume of the bodies with x above a limit.
+double volume_beyond(float limit, const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {
+  std::vector<Triangle> beyond;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(beyond),
+               [&](const Triangle& t) { return positions[t[0]].x() > limit; });
+  return measure_mesh(positions, beyond).volume;
+}
+
+TEST(TrackerTopology, WhatIsAllNewHasNoDetail) {
+  // A drop with a layer of detail around it; a second one comes out of nothing.
+  const ParticleFrame both =
+      test::fill_with_particles(Vec3d(-0.6, -0.6, -0.6), Vec3d(2.6, 0.6, 0.6), r, 0.1, 4,
+                                [](const Vec3d& x) { return std::min(x.norm(), (x - Vec3d(2, 0, 0)).norm()) < 0.5; });
+  ParticleFrame one;
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    if (both.positions[i].x() > 1.0F) continue;
+    one.positions.push_back(both.positions[i]);
+    one.ids.push_back(both.ids[i]);
+  }
+  Tracker tracker(test::parameters_with_spacing(r));
+  const TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 0.5 + 0.8 * r, 4);
+  tracker.start(mesh, one);
+  const std::vector<float> delta = tracker.mesh().delta();
+  EXPECT_GT(*std::min_element(delta.begin(), delta.end()), 0.0F);
+  tracker.advance(both, 1);
+  std::size_t made = 0;
+  for (std::uint32_t v = 0; v < tracker.mesh().vertex_count(); ++v) {
+    const std::uint32_t id = tracker.mesh().ids()[v];
+    if (id >= mesh.vertex_count()) ++made;
+    EXPECT_EQ(tracker.mesh().delta()[v], id < mesh.vertex_count() ? delta[id] : 0.0F);
+  }
+  EXPECT_GT(made, 100U);
+  // So it is drawn onto φ = 0, wherever filling and smoothing have put it.
+  tracker.advance(both, 2);
+  const SurfaceTriangulation& isosurface = tracker.implicit_surface()->triangulation;
+  const double expected = volume_beyond(1.0F, isosurface.vertices, isosurface.triangles);
+  EXPECT_NEAR(volume_beyond(1.0F, tracker.mesh().positions(), tracker.mesh().triangles()), expected, 2e-3 * expected);
+}
+
 TEST(TrackerTopology, RecordsTheCellsOfAMergeAndTracksAsWithout) {
   const TriangleMesh mesh =
       test::joined({test::make_sphere({-0.56, 0.01, 0.02}, 0.5, 4), test::make_sphere({0.56, -0.02, 0.01}, 0.5, 4)});
