@@ -15,17 +15,28 @@ namespace {
 
 using test::r;
 
-TEST(TrackerTopology, FlagsVerticesWhoseLiquidHasGone) {
-  // A second drop vanishes.
-  const ParticleFrame both =
-      test::fill_with_particles(Vec3d(-0.6, -0.6, -0.6), Vec3d(2.6, 0.6, 0.6), r, 0.1, 4,
-                                [](const Vec3d& x) { return std::min(x.norm(), (x - Vec3d(2, 0, 0)).norm()) < 0.5; });
+/// One around the origin, one around x = 2.
+ParticleFrame two_drops() {
+  return test::fill_with_particles(Vec3d(-0.6, -0.6, -0.6), Vec3d(2.6, 0.6, 0.6), r, 0.1, 4, [](const Vec3d& x) {
+    return std::min(x.norm(), (x - Vec3d(2, 0, 0)).norm()) < 0.5;
+  });
+}
+
+/// The particles of the first drop.
+ParticleFrame first_of(const ParticleFrame& both) {
   ParticleFrame one;
   for (std::size_t i = 0; i < both.size(); ++i) {
-    if (both.positions[i].x() > 1.0f) continue;
+    if (both.positions[i].x() > 1.0F) continue;
     one.positions.push_back(both.positions[i]);
     one.ids.push_back(both.ids[i]);
   }
+  return one;
+}
+
+TEST(TrackerTopology, FlagsVerticesWhoseLiquidHasGone) {
+  // A second drop vanishes.
+  const ParticleFrame both = two_drops();
+  const ParticleFrame one = first_of(both);
   // Where topology is kept, its mesh is left behind, flagged, and does not jump over to the first.
   Parameters keep = test::parameters_with_spacing(r);
   keep.topology = TopologyMode::kKeep;
@@ -60,15 +71,8 @@ double volume_beyond(float limit, const std::vector<Vec3f>& positions, const std
 
 TEST(TrackerTopology, WhatIsAllNewHasNoDetail) {
   // A drop with a layer of detail around it; a second one comes out of nothing.
-  const ParticleFrame both =
-      test::fill_with_particles(Vec3d(-0.6, -0.6, -0.6), Vec3d(2.6, 0.6, 0.6), r, 0.1, 4,
-                                [](const Vec3d& x) { return std::min(x.norm(), (x - Vec3d(2, 0, 0)).norm()) < 0.5; });
-  ParticleFrame one;
-  for (std::size_t i = 0; i < both.size(); ++i) {
-    if (both.positions[i].x() > 1.0F) continue;
-    one.positions.push_back(both.positions[i]);
-    one.ids.push_back(both.ids[i]);
-  }
+  const ParticleFrame both = two_drops();
+  const ParticleFrame one = first_of(both);
   Tracker tracker(test::parameters_with_spacing(r));
   const TriangleMesh mesh = test::make_sphere(Vec3d::Zero(), 0.5 + 0.8 * r, 4);
   tracker.start(mesh, one);

@@ -18,8 +18,8 @@ struct PatchedConnectivity {
 };
 
 /// Puts a patch into a mesh, and checks the result where it is not as before: every edge there must have one triangle
-/// on either side, every vertex one umbrella of three triangles or more. Its time follows the patch; of all other
-/// triangles and their twins only the numbers change.
+/// on either side, every vertex one umbrella of three triangles or more. Of all other triangles and their twins only
+/// the numbers change.
 /// \param twins of the half-edges of these triangles. Where one is kNoHalfEdge the mesh is taken for open, and what is
 /// around the edge is checked too; what has twins is taken for part of a closed, oriented 2-manifold.
 /// \return nothing if the result would not be a closed, oriented 2-manifold.
