@@ -14,6 +14,7 @@
 #include "particle_surface_tracker/io/mesh_reader.h"
 #include "sequences/frame_judgement.h"
 #include "sequences/judged_tracking.h"
+#include "sequences/moving_liquids.h"
 #include "sequences/sequence_data.h"
 #include "sequences/topology_figures.h"
 
@@ -24,7 +25,8 @@ namespace {
 struct Options {
   std::string bag;
   std::string topic = "/particles";
-  std::string mesh;
+  std::string liquid;
+  std::string mesh = "implicit";
   pst::Parameters parameters;
   std::vector<std::string> settings;
   std::optional<std::size_t> last;
@@ -35,10 +37,15 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--bag", options.bag, "Bag of particles")->required();
+  CLI::App& input = *app.add_option_group("input", "one of");
+  input.add_option("--bag", options.bag, "Bag of particles");
+  input.add_option("--liquid", options.liquid, "A liquid that is made here; it brings its own mesh and spacing")
+      ->check(CLI::IsMember(pst::test::moving_liquid_names()));
+  input.require_option(1);
   app.add_option("--topic", options.topic, "Topic of the particles");
-  app.add_option("--mesh", options.mesh, "Mesh that bounds the liquid of frame 0")->required();
-  app.add_option("--spacing", options.parameters.particle_spacing, "Particle spacing r [m]")->required();
+  app.add_option("--mesh", options.mesh, "Mesh that bounds the liquid of frame 0; 'implicit': that of the particles")
+      ->capture_default_str();
+  app.add_option("--spacing", options.parameters.particle_spacing, "Particle spacing r [m]");
   app.add_option("--set", options.settings, "A parameter of the tracker, as name=value");
   app.add_option("--last", options.last, "Index of the last frame");
   app.add_option("--every", options.every, "Show the tracker every N-th frame only")->check(CLI::PositiveNumber);
@@ -57,31 +64,44 @@ void apply_settings(Options& options) {
   }
 }
 
-std::vector<pst::ParticleFrame> read_frames(const Options& options) {
+pst::test::Sequence read_sequence(const Options& options) {
   std::optional<std::size_t> count;
   if (options.last) count = *options.last + 1;
-  return pst::test::read_particle_bag(options.bag, options.topic, count);
+  pst::test::Sequence sequence;
+  if (!options.liquid.empty()) {
+    sequence = pst::test::make_moving_liquid(options.liquid);
+    if (count && *count < sequence.frames.size()) sequence.frames.resize(*count);
+    return sequence;
+  }
+  sequence.spacing = options.parameters.particle_spacing;
+  sequence.frames = pst::test::read_particle_bag(options.bag, options.topic, count);
+  if (sequence.frames.empty()) throw pst::InputError(options.bag + " holds no frames of " + options.topic);
+  sequence.mesh = options.mesh == "implicit" ? pst::test::implicit_mesh(sequence.frames.front(), sequence.spacing)
+                                             : pst::read_initial_mesh(options.mesh).mesh;
+  return sequence;
 }
 
-void judge_topology(const Options& options) {
-  const pst::test::Sequence sequence{options.parameters.particle_spacing, pst::read_initial_mesh(options.mesh).mesh,
-                                     read_frames(options)};
+/// What the limits of a sequence are known by.
+std::string name_of(const Options& options) {
+  return options.liquid.empty() ? std::filesystem::path(options.mesh).stem().string() : options.liquid;
+}
+
+void judge_topology(const Options& options, const pst::test::Sequence& sequence) {
   std::ofstream csv(options.csv);
   csv << pst::test::topology_csv_header() << "\n";
   std::cout << pst::test::topology_header() << std::endl;
-  const auto figures =
-      pst::test::track_and_judge(sequence, options.parameters, options.every,
-                                 [&](const pst::test::TopologyFigures& frame, const pst::test::TopologyFigures& first) {
-                                   std::cout << pst::test::topology_row(frame, first) << std::endl;
-                                   csv << pst::test::topology_csv_row(frame, first) << std::endl;
-                                 });
-  const std::string name = std::filesystem::path(options.mesh).stem().string();
+  const auto figures = pst::test::track_and_judge(
+      sequence, options.parameters, options.every,
+      [&](const pst::test::TopologyFigures& frame, const pst::test::TopologyFigures& first) {
+        std::cout << pst::test::topology_row(frame, first) << "\n" << pst::test::topology_notes(frame) << std::flush;
+        csv << pst::test::topology_csv_row(frame, first) << std::endl;
+      });
+  const std::string name = name_of(options);
   std::cout << pst::test::summary_of(name, figures, pst::test::limits_for(name)) << std::flush;
 }
 
-void judge(const Options& options) {
-  const pst::TriangleMesh mesh = pst::read_initial_mesh(options.mesh).mesh;
-  const std::vector<pst::ParticleFrame> frames = read_frames(options);
+void judge(const Options& options, const pst::test::Sequence& sequence) {
+  const std::vector<pst::ParticleFrame>& frames = sequence.frames;
   std::ofstream csv(options.csv);
   csv << pst::test::judgement_csv_header() << "\n";
   std::cout << pst::test::judgement_header() << std::endl;
@@ -89,7 +109,7 @@ void judge(const Options& options) {
   pst::Tracker tracker(options.parameters);
   pst::test::FrameJudgement first;
   for (std::size_t n = 0; n < frames.size(); n += options.every) {
-    const pst::FrameReport report = n == 0 ? tracker.start(mesh, frames[n]) : tracker.advance(frames[n], n);
+    const pst::FrameReport report = n == 0 ? tracker.start(sequence.mesh, frames[n]) : tracker.advance(frames[n], n);
     for (const std::string& warning : report.warnings) std::cout << "frame " << n << ": " << warning << "\n";
     const bool count_intersections = options.stride != 0 && n % options.stride == 0;
     const auto judgement = pst::test::judge_frame(tracker, frames[n], report, count_intersections);
@@ -108,7 +128,9 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     apply_settings(options);
-    options.topology ? judge_topology(options) : judge(options);
+    const pst::test::Sequence sequence = read_sequence(options);
+    options.parameters.particle_spacing = sequence.spacing;
+    options.topology ? judge_topology(options, sequence) : judge(options, sequence);
   } catch (const std::exception& error) {
     std::cerr << "judge_sequence: " << error.what() << "\n";
     return 1;

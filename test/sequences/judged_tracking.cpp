@@ -25,7 +25,7 @@ std::vector<TopologyFigures> track_and_judge(const Sequence& sequence, std::size
   fmt::print("{}\n", topology_header());
   return track_and_judge(sequence, parameters_with_spacing(sequence.spacing), step,
                          [](const TopologyFigures& figures, const TopologyFigures& first) {
-                           fmt::print("{}\n", topology_row(figures, first));
+                           fmt::print("{}\n{}", topology_row(figures, first), topology_notes(figures));
                          });
 }
 

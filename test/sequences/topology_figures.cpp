@@ -144,7 +144,7 @@ std::vector<SequenceVerdict> judge_figures(const std::vector<TopologyFigures>& f
   const double valid = share_of(figures, [](const TopologyFigures& frame) { return frame.is_valid(); });
   const double equal = share_of(figures, [](const TopologyFigures& frame) { return frame.topology.is_equal(); });
   const double covered =
-      share_of(figures, [](const TopologyFigures& frame) { return frame.topology.uncovered_particles == 0; });
+      share_of(figures, [](const TopologyFigures& frame) { return frame.topology.uncovered.empty(); });
   return {at_least("frames with a valid mesh", valid, limits.valid_frames),
           at_most("self-intersecting triangles, mean", self_intersecting, limits.self_intersecting),
           at_least("frames with the topology of φ = 0", equal, limits.equal_topology),
@@ -174,7 +174,22 @@ std::string topology_row(const TopologyFigures& f, const TopologyFigures& first)
   return fmt::format("{:5} {:>6} {:>6} {:6} {:5} {:7} {:7} {:6} {:9} {:7} {:7} {:10} {:11.4f} {:9.3f} {:8.2f}", f.frame,
                      f.is_valid() ? "yes" : "NO", t.is_equal() ? "yes" : "NO", t.wrong, t.wrong_now - t.wrong,
                      t.mesh_bodies, t.phi_bodies, t.small_phi_bodies, t.mesh_cavities, t.splits, t.merges,
-                     t.uncovered_particles, 100.0 * f.self_intersecting, 100.0 * drift(f, first), 100.0 * f.originals);
+                     t.uncovered.size(), 100.0 * f.self_intersecting, 100.0 * drift(f, first), 100.0 * f.originals);
+}
+
+std::string topology_notes(const TopologyFigures& f) {
+  std::string notes;
+  for (const WrongBody& body : f.topology.wrong_bodies) {
+    notes +=
+        fmt::format("frame {}: a body of {} with {} particles has {} partners; it is at ({:.4f}, {:.4f}, {:.4f})\n",
+                    f.frame, body.is_of_mesh ? "the mesh" : "φ = 0", body.particles, body.partners, body.vertex.x(),
+                    body.vertex.y(), body.vertex.z());
+  }
+  for (const Vec3f& particle : f.topology.uncovered) {
+    notes += fmt::format("frame {}: the particle at ({:.4f}, {:.4f}, {:.4f}) is outside by more than r\n", f.frame,
+                         particle.x(), particle.y(), particle.z());
+  }
+  return notes;
 }
 
 std::string topology_csv_header() {
@@ -191,7 +206,7 @@ std::string topology_csv_row(const TopologyFigures& f, const TopologyFigures& fi
   std::string row = fmt::format(
       "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.8f},{:.6f},{:.6f},{:.6f}", f.frame, f.is_manifold ? 1 : 0,
       f.is_manifold_welded ? 1 : 0, t.nested_solids, t.misplaced_cavities, t.is_equal() ? 1 : 0, t.wrong, t.wrong_now,
-      t.mesh_bodies, t.mesh_cavities, t.phi_bodies, t.small_phi_bodies, t.splits, t.merges, t.uncovered_particles,
+      t.mesh_bodies, t.mesh_cavities, t.phi_bodies, t.small_phi_bodies, t.splits, t.merges, t.uncovered.size(),
       f.self_intersecting, f.volume_ratio, f.volume_ratio / first.volume_ratio, f.originals);
   for (const std::string& name : mark_names()) {
     const auto mark = f.marks.find(name);

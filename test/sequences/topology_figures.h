@@ -76,6 +76,8 @@ std::string summary_of(const std::string& name, const std::vector<TopologyFigure
 /// Head and rows of a table for people, and of a CSV file.
 std::string topology_header();
 std::string topology_row(const TopologyFigures& figures, const TopologyFigures& first);
+/// What is wrong with a frame's topology, and where: a line for each body and particle; empty where all is right.
+std::string topology_notes(const TopologyFigures& figures);
 std::string topology_csv_header();
 std::string topology_csv_row(const TopologyFigures& figures, const TopologyFigures& first);
 

@@ -68,10 +68,10 @@ TEST(TopologyFigures, OneFrameInAHundredMayDifferInTopology) {
   std::vector<TopologyFigures> figures = good_sequence(100);
   figures[3].topology.wrong = 2;
   figures[4].topology.wrong_now = 2;
-  figures[5].topology.uncovered_particles = 3;
+  figures[5].topology.uncovered.resize(3);
   EXPECT_EQ(passed(figures), std::vector<bool>(6, true));
   figures[6].topology.wrong = 1;
-  figures[6].topology.uncovered_particles = 1;
+  figures[6].topology.uncovered.resize(1);
   EXPECT_EQ(passed(figures), (std::vector<bool>{true, true, false, false, true, true}));
 }
 
@@ -134,7 +134,7 @@ TEST(TopologyFigures, OfATrackedBall) {
     EXPECT_TRUE(figures.topology.is_equal());
     EXPECT_EQ(figures.topology.mesh_bodies, 1u);
     EXPECT_EQ(figures.topology.phi_bodies, 1u);
-    EXPECT_EQ(figures.topology.uncovered_particles, 0u);
+    EXPECT_TRUE(figures.topology.uncovered.empty());
     EXPECT_EQ(figures.self_intersecting, 0.0);
     EXPECT_EQ(figures.originals, 1.0);
     EXPECT_EQ(figures.marks.at("flagged_cells"), 0u);

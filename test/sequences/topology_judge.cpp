@@ -13,6 +13,7 @@ constexpr std::uint32_t kNone = SurfaceBodies::kNone;
 
 /// How bodies of the mesh and of φ = 0 correspond.
 struct Correspondence {
+  BodyLinks links;
   std::vector<bool> mesh_is_right;
   std::vector<bool> phi_is_right;    ///< Has exactly one partner, or too few particles to be compared.
   std::vector<bool> phi_is_missing;  ///< Has enough particles, and no partner.
@@ -36,6 +37,7 @@ Correspondence compare(const SurfaceBodies& mesh, const Membership& mesh_members
   BodyLinks links = link_bodies(mesh_members, phi_members);
   link_by_place(mesh, phi, reach, links);
   Correspondence found;
+  found.links = links;
   for (std::uint32_t m = 0; m < mesh.size(); ++m) {
     std::vector<std::uint32_t> compared;
     std::copy_if(links.of_first[m].begin(), links.of_first[m].end(), std::back_inserter(compared),
@@ -89,14 +91,15 @@ std::size_t count_beyond_first(const std::vector<std::vector<std::uint32_t>>& li
   return beyond;
 }
 
-std::size_t count_uncovered(const SurfaceBodies& mesh, const Membership& phi, const ParticleFrame& particles,
-                            double r) {
-  std::size_t uncovered = 0;
+std::vector<Vec3f> find_uncovered(const SurfaceBodies& mesh, const Membership& phi, const ParticleFrame& particles,
+                                  double r) {
+  std::vector<Vec3f> uncovered;
   for (std::size_t n = 0; n < particles.size(); ++n) {
+    const Vec3f& place = particles.positions[n];
     const bool is_of_interest = std::any_of(phi.bodies[n].begin(), phi.bodies[n].end(),
                                             [&](std::uint32_t body) { return is_compared(phi, body); });
-    if (!is_of_interest || mesh.judge().winding_number(particles.positions[n]) > 0) continue;
-    uncovered += mesh.size() == 0 || mesh.judge().nearest(particles.positions[n]).distance > r;
+    if (!is_of_interest || mesh.judge().winding_number(place) > 0) continue;
+    if (mesh.size() == 0 || mesh.judge().nearest(place).distance > r) uncovered.push_back(place);
   }
   return uncovered;
 }
@@ -147,7 +150,7 @@ TopologyJudgement TopologyJudge::judge(const SurfaceBodies& mesh, std::shared_pt
   for (std::uint32_t f = 0; f < phi->size(); ++f) {
     ++(is_compared(phi_members, f) ? judgement.phi_bodies : judgement.small_phi_bodies);
   }
-  judgement.uncovered_particles = count_uncovered(mesh, phi_members, particles, r_);
+  judgement.uncovered = find_uncovered(mesh, phi_members, particles, r_);
 
   Correspondence before;
   if (earlier_phi_) {
@@ -159,7 +162,9 @@ TopologyJudgement TopologyJudge::judge(const SurfaceBodies& mesh, std::shared_pt
   for (std::uint32_t m = 0; m < mesh.size(); ++m) {
     if (now.mesh_is_right[m]) continue;
     ++judgement.wrong_now;
-    if (!earlier_phi_ || !before.mesh_is_right[m]) ++judgement.wrong;
+    if (earlier_phi_ && before.mesh_is_right[m]) continue;
+    ++judgement.wrong;
+    judgement.wrong_bodies.push_back({true, mesh.vertex_of(m), mesh_members.sizes[m], now.links.of_first[m].size()});
   }
   for (std::uint32_t f = 0; f < phi->size(); ++f) {
     if (!now.phi_is_missing[f]) continue;
@@ -167,7 +172,9 @@ TopologyJudgement TopologyJudge::judge(const SurfaceBodies& mesh, std::shared_pt
     // One that has just come off another body, or out of nothing, may be late.
     const std::uint32_t origin = earlier_phi_ ? origin_of(f, phi_members, earlier_membership_) : kNone;
     const bool may_be_late = earlier_phi_ && (origin == kNone || before.phi_is_right[origin]);
-    if (!may_be_late) ++judgement.wrong;
+    if (may_be_late) continue;
+    ++judgement.wrong;
+    judgement.wrong_bodies.push_back({false, phi->vertex_of(f), phi_members.sizes[f], 0});
   }
 
   earlier_phi_ = std::move(phi);

@@ -31,6 +31,14 @@ struct BodyLinks {
 Membership find_membership(const SurfaceBodies& bodies, const ParticleFrame& particles, double reach);
 BodyLinks link_bodies(const Membership& first, const Membership& second);
 
+/// A body of mesh or φ = 0 without exactly one partner: where it is, for people who look.
+struct WrongBody {
+  bool is_of_mesh = false;
+  Vec3f vertex = Vec3f::Zero();  ///< One of its own [m].
+  std::size_t particles = 0;
+  std::size_t partners = 0;  ///< Bodies of the other surface that are linked to it.
+};
+
 /// How the components of a mesh compare with those of φ = 0.
 struct TopologyJudgement {
   std::size_t mesh_bodies = 0;          ///< Solids of the mesh.
@@ -43,7 +51,8 @@ struct TopologyJudgement {
   std::size_t merges = 0;               ///< Since the frame before: bodies of φ = 0 that others joined.
   std::size_t wrong_now = 0;            ///< Bodies of mesh and φ = 0 without exactly one partner in this frame.
   std::size_t wrong = 0;                ///< Of these: also not right by φ of the frame before.
-  std::size_t uncovered_particles = 0;  ///< Of bodies with kFewestParticles or more: outside the mesh by more than r.
+  std::vector<WrongBody> wrong_bodies;  ///< Those counted in `wrong`.
+  std::vector<Vec3f> uncovered;         ///< Particles of bodies with kFewestParticles or more: outside by more than r.
 
   bool is_equal() const { return wrong == 0; }
 };

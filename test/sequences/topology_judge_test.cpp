@@ -133,7 +133,7 @@ TEST(TopologyJudge, ADropBornAwayFromTheMeshMayBeMissedForOneFrame) {
   const TopologyJudgement born = judge.judge({bar(0, 10)}, with_drop);
   EXPECT_EQ(born.wrong_now, 1u);
   EXPECT_EQ(born.wrong, 0u);
-  EXPECT_EQ(born.uncovered_particles, 18u);
+  EXPECT_EQ(born.uncovered.size(), 18u);
   EXPECT_EQ(judge.judge({bar(0, 10)}, with_drop).wrong, 1u);
 }
 
@@ -185,7 +185,7 @@ TEST(TopologyJudge, ParticlesJustOutsideDoNotLinkBodies) {
 
 TEST(TopologyJudge, CountsParticlesThatTheMeshLost) {
   // The mesh covers 12 of 20 slices of nine particles, and one more lies within r.
-  EXPECT_EQ(BoxJudge().judge({bar(0, 12)}, kWhole).uncovered_particles, 7u * 9u);
+  EXPECT_EQ(BoxJudge().judge({bar(0, 12)}, kWhole).uncovered.size(), 7u * 9u);
 }
 
 TEST(TopologyJudge, AHollowBodyIsOne) {

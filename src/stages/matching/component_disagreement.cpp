@@ -36,24 +36,6 @@ bool spans_components(const Triangle& t, const Labels& labels) {
   return labels[t[0]] != labels[t[1]] || labels[t[1]] != labels[t[2]];
 }
 
-/// Whether an edge that has grown long runs from one body to another. Where a part of the liquid is
-/// thinner than r, φ = 0 can come apart and together again as the lattice lies; only where the bodies really part,
-/// edges between them grow.
-bool spans_gap(const TriangleMesh& mesh, const Triangle& t, const ComponentLabels& components, const Labels& labels,
-               double h) {
-  if (!spans_components(t, labels)) return false;
-  const auto is_of_body = [&](std::uint32_t v) {
-    return labels[v] != ComponentLabels::kFar && !components.is_speck(labels[v]);
-  };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-    if (labels[a] == labels[b] || !is_of_body(a) || !is_of_body(b)) continue;
-    const double length = (mesh.positions()[a] - mesh.positions()[b]).cast<double>().norm();
-    if (length > std::max(kLength * h, kGrowth * longest_edge_at_birth(mesh, a, b))) return true;
-  }
-  return false;
-}
-
 /// Components of the mesh that should not be there, or not be on their own.
 class StrayPieces {
  public:
@@ -76,15 +58,14 @@ class StrayPieces {
       if (mesh.ids()[v] >= first_new_id) has_changed[component_[v]] = true;
     }
     std::vector<std::pair<std::size_t, std::int32_t>> choice(count_, {0, 0});
-    std::map<std::int32_t, std::pair<std::size_t, std::uint32_t>> owner;
     for (const auto& [place, number] : votes) {
       const auto& [component, label] = place;
       if (number > choice[component].first) choice[component] = {number, label};
-      auto& best = owner[label];
+      auto& best = owner_[label];
       if (number > best.first) best = {number, component};
     }
     for (std::uint32_t c = 0; c < count_; ++c) {
-      if (!has_changed[c] || owner[choice[c].second].second == c) continue;
+      if (!has_changed[c] || owner_[choice[c].second].second == c) continue;
       kinds_[c] = sizes[c] <= kLargestScrap ? Kind::kScrap : Kind::kBody;
     }
   }
@@ -96,10 +77,56 @@ class StrayPieces {
   /// Of the component that a triangle belongs to.
   Kind kind_of(const Triangle& t) const { return kinds_[component_[t[0]]]; }
 
+  /// Whether the component that a triangle belongs to is, of all of the mesh, that with most vertices at either of two
+  /// components of φ = 0.
+  bool holds_both(const Triangle& t, std::int32_t label, std::int32_t other) const {
+    return count_ == 1 || (owner_.at(label).second == component_[t[0]] && owner_.at(other).second == component_[t[0]]);
+  }
+
  private:
   std::size_t count_ = 0;
   std::vector<std::uint32_t> component_;
   std::vector<Kind> kinds_;
+  /// Of every component of φ = 0 that of the mesh with most vertices there, and how many.
+  std::map<std::int32_t, std::pair<std::size_t, std::uint32_t>> owner_;
+};
+
+/// Finds triangles that hold bodies together which have come apart.
+class Bridges {
+ public:
+  Bridges(const TriangleMesh& mesh, std::uint32_t first_new_id, const ComponentLabels& components, const Labels& labels,
+          const StrayPieces& pieces, double h)
+      : mesh_(mesh), first_new_id_(first_new_id), components_(components), labels_(labels), pieces_(pieces), h_(h) {}
+
+  /// Whether an edge runs from one body to another. Where a part of the liquid is thinner than r, φ = 0 can come apart
+  /// and together again as the lattice lies: detail must not follow, so it is a bridge only where an edge has grown
+  /// long, as it does where the bodies really part. Surface that re-meshing has made follows φ wherever it is all that
+  /// holds two bodies together.
+  bool contain(const Triangle& t) const {
+    if (!spans_components(t, labels_)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (labels_[a] == labels_[b] || !is_of_body(a) || !is_of_body(b)) continue;
+      if (is_new(a) && is_new(b) && pieces_.holds_both(t, labels_[a], labels_[b])) return true;
+      const double length = (mesh_.positions()[a] - mesh_.positions()[b]).cast<double>().norm();
+      if (length > std::max(kLength * h_, kGrowth * longest_edge_at_birth(mesh_, a, b))) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool is_new(std::uint32_t v) const { return mesh_.ids()[v] >= first_new_id_; }
+
+  bool is_of_body(std::uint32_t v) const {
+    return labels_[v] != ComponentLabels::kFar && !components_.is_speck(labels_[v]);
+  }
+
+  const TriangleMesh& mesh_;
+  std::uint32_t first_new_id_;
+  const ComponentLabels& components_;
+  const Labels& labels_;
+  const StrayPieces& pieces_;
+  double h_;
 };
 
 }  // namespace
@@ -120,6 +147,7 @@ ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std:
            std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return bridge[v] > 0.0F; });
   };
   const double h = parameters.dx_gamma * parameters.particle_spacing;
+  const Bridges bridges(mesh, first_new_id, components, labels, pieces, h);
   ComponentDisagreement found;
   for (const Triangle& t : mesh.triangles()) {
     const auto append_to = [&](std::vector<openvdb::Coord>& cells) {
@@ -129,7 +157,7 @@ ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std:
     const StrayPieces::Kind kind = pieces.kind_of(t);
     if (kind == StrayPieces::Kind::kScrap) append_to(found.scrap_cells);
     if (kind == StrayPieces::Kind::kBody) append_to(found.stray_cells);
-    if (kind != StrayPieces::Kind::kScrap && spans_gap(mesh, t, components, labels, h) && !is_old_bridge(t)) {
+    if (kind != StrayPieces::Kind::kScrap && bridges.contain(t) && !is_old_bridge(t)) {
       append_to(found.bridge_cells);
     }
   }

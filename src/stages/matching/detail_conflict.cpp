@@ -18,8 +18,11 @@ namespace {
 using openvdb::Coord;
 using Nodes = std::vector<Coord>;
 
-/// Nodes around an uncovered particle that get the side of φ [r].
-constexpr double kAroundParticle = 1.25;
+/// Nodes around an uncovered particle that get the side of φ [r]. φ = 0 is within r of it, and the liquid behind that
+/// reaches to the next node, but may be thinner than a cell.
+double around_particle(double h, double r) {
+  return r + h;
+}
 
 /// A neck of liquid between two bodies is hardly longer [r].
 constexpr double kLongestWay = 5.0;
@@ -98,7 +101,7 @@ std::vector<Vec3f> near_missing_liquid(const std::vector<Vec3f>& uncovered, cons
   const double h = mesh_query.lattice().h();
   std::vector<Nodes> surroundings;
   for (const Vec3f& particle : uncovered) {
-    surroundings.push_back(nodes_around(particle, h, kAroundParticle * parameters.particle_spacing));
+    surroundings.push_back(nodes_around(particle, h, around_particle(h, parameters.particle_spacing)));
   }
   const NodeMasks all = masks_of(surroundings);
   NodeMasks missing = isosurface.field().liquid(all);
@@ -124,7 +127,7 @@ std::vector<Coord> find_conflicting_nodes(const MeshQuery& mesh_query, const Com
   Nodes found;
   const auto append = [&](const Nodes& nodes) { found.insert(found.end(), nodes.begin(), nodes.end()); };
   std::vector<Nodes> surroundings;
-  for (const Vec3f& particle : uncovered) surroundings.push_back(nodes_around(particle, h, kAroundParticle * r));
+  for (const Vec3f& particle : uncovered) surroundings.push_back(nodes_around(particle, h, around_particle(h, r)));
   const NodeMasks inside = inside_by_gamma(masks_of(surroundings), mesh_query.signs(), {});
   std::vector<Nodes> outside;
   for (Nodes& around : surroundings) {

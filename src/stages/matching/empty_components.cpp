@@ -17,6 +17,9 @@ namespace {
 /// A component with more triangles is no crumb.
 constexpr std::size_t kLargestCrumb = 500;
 
+/// Liquid has a particle in the box of its surface, or as near as this [r].
+constexpr double kNear = 0.3;
+
 /// A component that encloses less is no drop and no bubble, whoever is near it [r³]: the motion flattens it, and once
 /// it is inside out nothing finds it any more.
 constexpr double kLargestSpeck = 1.0e-3;
@@ -84,10 +87,11 @@ std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_
   for (const Vec3f& particle : particles) {
     const Vec3d place = particle.cast<double>();
     if (!has_cell(place / r) || !near.contains(cell_of(place / r))) continue;
-    crumbs.erase(
-        std::remove_if(crumbs.begin(), crumbs.end(),
-                       [&](std::uint32_t c) { return components[c].box.squaredExteriorDistance(place) <= r * r; }),
-        crumbs.end());
+    crumbs.erase(std::remove_if(crumbs.begin(), crumbs.end(),
+                                [&](std::uint32_t c) {
+                                  return components[c].box.squaredExteriorDistance(place) <= kNear * kNear * r * r;
+                                }),
+                 crumbs.end());
   }
   const auto middle = static_cast<std::ptrdiff_t>(crumbs.size());
   crumbs.insert(crumbs.end(), specks.begin(), specks.end());

@@ -91,6 +91,7 @@ PieceNodes LiquidWays::nodes_of(const Nodes& cells) const {
   openvdb::CoordBBox box;
   for (const Coord& node : piece.all) box.expand(node);
   NodeMasks seen, of_others;
+  Nodes enclosed;
   const std::size_t at_surface = piece.all.size();
   for (std::size_t n = 0; n < at_surface; ++n) {
     const Coord first = piece.all[n];
@@ -99,10 +100,18 @@ PieceNodes LiquidWays::nodes_of(const Nodes& cells) const {
     if (body.goes_on) {
       for (const Coord& node : body.nodes) of_others.insert(node);
     } else {
-      piece.all.insert(piece.all.end(), body.nodes.begin(), body.nodes.end());
+      enclosed.insert(enclosed.end(), body.nodes.begin(), body.nodes.end());
     }
   }
+  piece.all.insert(piece.all.end(), enclosed.begin(), enclosed.end());
   settle(piece.all);
+  // A way from a node beside the piece would join the rest of the mesh to what need not be joined to the piece. Where
+  // φ has no liquid inside, or the piece is between the nodes, any node will do that is not inside another part.
+  settle(enclosed);
+  if (!is_empty(field_.liquid(masks_of(enclosed)))) {
+    piece.start = std::move(enclosed);
+    return piece;
+  }
   std::copy_if(piece.all.begin(), piece.all.end(), std::back_inserter(piece.start),
                [&](const Coord& node) { return !of_others.contains(node); });
   return piece;

@@ -12,9 +12,8 @@ namespace particle_surface_tracker {
 
 /// The nodes of a piece of mesh.
 struct PieceNodes {
-  std::vector<openvdb::Coord> all;  ///< At its surface, and those that it encloses; sorted.
-  std::vector<openvdb::Coord>
-      start;  ///< Of these: not inside another part of the mesh. From here a way leads to the rest of it.
+  std::vector<openvdb::Coord> all;    ///< At its surface, and those that it encloses; sorted.
+  std::vector<openvdb::Coord> start;  ///< Of these: where ways to the rest of the mesh begin.
 };
 
 /// Finds the ways from liquid that the mesh does not hold to liquid that it does.

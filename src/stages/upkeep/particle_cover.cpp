@@ -19,6 +19,9 @@ namespace {
 constexpr double kCovered = 0.98;
 /// Surface that is farther does not belong to the particle [r].
 constexpr double kFarthest = 1.25;
+/// Vertices of the first mesh are moved only if the surface is nearer [r]: it is their detail that gives way, for a
+/// frame.
+constexpr double kFarthestDetail = 1.15;
 /// Triangles up to this many cells of r from a particle are looked at. Larger ones are none that re-meshing has made.
 constexpr int kReach = 4;
 /// Share of the closest place that must move for the surface there to follow.
@@ -54,6 +57,7 @@ class ParticleCover {
     const ClosestPlace closest = find_closest(particle);
     const double distance = closest.offset.norm();
     if (distance <= kCovered * r_ || distance > kFarthest * r_) return;
+    first_that_may_move_ = distance > kFarthestDetail * r_ ? first_new_id_ : 0;
     const Triangle& corners = mesh_.triangles()[closest.triangle];
     double weight = 0.0;
     for (int k = 0; k < 3; ++k) weight += may_move(corners[k]) ? closest.weights[k] : 0.0;
@@ -69,7 +73,7 @@ class ParticleCover {
   }
 
  private:
-  bool may_move(std::uint32_t vertex) const { return mesh_.ids()[vertex] >= first_new_id_; }
+  bool may_move(std::uint32_t vertex) const { return mesh_.ids()[vertex] >= first_that_may_move_; }
 
   Corners corners_of(std::uint32_t triangle) const {
     return place_corners(mesh_.positions(), mesh_.triangles()[triangle]);
@@ -113,7 +117,7 @@ class ParticleCover {
     }
     if (is_sound(around, normals)) {
       for (const std::uint32_t v : corners) {
-        if (may_move(v)) moved_.push_back(v);
+        if (mesh_.ids()[v] >= first_new_id_) moved_.push_back(v);
       }
       return;
     }
@@ -142,6 +146,7 @@ class ParticleCover {
 
   TriangleMesh& mesh_;
   std::uint32_t first_new_id_;
+  std::uint32_t first_that_may_move_ = 0;
   double r_;
   std::vector<std::uint32_t> near_;  // triangles
   std::vector<std::uint32_t> moved_;

@@ -98,6 +98,27 @@ TEST(ComponentDisagreement, WhatWasMadeAnewIsNoBridgeOfBirth) {
                    .bridge_cells.empty());
 }
 
+TEST(ComponentDisagreement, WhatWasMadeAnewNeedNotGrowToBeABridge) {
+  const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
+  const TriangleMesh stretched = stretched_ellipsoid();
+  TriangleMesh mesh(stretched.positions(), stretched.triangles());
+  note_birth(mesh);
+  const auto count = static_cast<std::uint32_t>(mesh.vertex_count());
+  const auto bridge_cells = [&](std::uint32_t first_new_id) {
+    return find_component_disagreement(mesh, first_new_id, IsosurfaceQuery(surface, kH),
+                                       test::parameters_with_spacing(kSpacing))
+        .bridge_cells;
+  };
+  EXPECT_TRUE(bridge_cells(count).empty());
+  EXPECT_FALSE(bridge_cells(0).empty());
+  // Where other surface is at one of the bodies, it does not hold the two together.
+  const TriangleMesh body = test::make_sphere(Vec3d(0.65, 0, 0), 0.5, 4);
+  ASSERT_GT(body.vertex_count(), mesh.vertex_count());
+  mesh = test::joined({mesh, body});
+  note_birth(mesh);
+  EXPECT_TRUE(bridge_cells(0).empty());
+}
+
 TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
   std::uint32_t first_new_id = 0;
   const TriangleMesh mesh = body_with_scrap(Vec3d(0.9, 0, 0), first_new_id);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "stages/matching/liquid_ways.h"
 #include "stages/matching/matching_cases.h"
 
 namespace particle_surface_tracker::test::matching {
@@ -73,6 +74,25 @@ TEST(DetailConflict, ALargePieceIsJoinedByItsNeckAlone) {
   EXPECT_EQ(split.components(nodes), 1);
   // What is beyond the middle of the drop keeps its detail.
   for (const openvdb::Coord& node : nodes) EXPECT_LT(place(node).x(), 0.45) << node;
+}
+
+// From a node beside the piece a way could lead to the body without joining the piece.
+TEST(DetailConflict, WaysBeginInsideAPieceThatHasLiquid) {
+  const SplitTooEarly split;
+  const MeshQuery query(split.lattice);
+  const auto is_in_drop = [](const openvdb::Coord& node) {
+    return (place(node) - Vec3d(0.45, 0.01, 0.02)).norm() < 0.2;
+  };
+  const std::vector<openvdb::Coord> start =
+      LiquidWays(query, split.isosurface.field()).nodes_of(split.drop_cells).start;
+  EXPECT_FALSE(start.empty());
+  EXPECT_TRUE(std::all_of(start.begin(), start.end(), is_in_drop));
+  // Liquid that has moved on is beside it.
+  const ImplicitSurface elsewhere = make_surface(kBody);
+  const IsosurfaceQuery isosurface(elsewhere, kH);
+  const std::vector<openvdb::Coord> any = LiquidWays(query, isosurface.field()).nodes_of(split.drop_cells).start;
+  EXPECT_TRUE(std::any_of(any.begin(), any.end(), is_in_drop));
+  EXPECT_FALSE(std::all_of(any.begin(), any.end(), is_in_drop));
 }
 
 TEST(DetailConflict, LiquidThatIsFarAwayIsNotJoined) {

@@ -18,7 +18,7 @@ const auto kFirstNewId = static_cast<std::uint32_t>(kBody.vertex_count());
 
 TEST(EmptyComponents, AreRemoved) {
   TriangleMesh mesh = test::joined({kBody, kCrumb});
-  EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0, 0, 0), Vec3f(0.65F, 0, 0)}, kSpacing), 1U);
+  EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0, 0, 0), Vec3f(0.735F, 0, 0)}, kSpacing), 1U);
   EXPECT_EQ(mesh.vertex_count(), kBody.vertex_count());
   EXPECT_EQ(mesh.triangles(), kBody.triangles());
   EXPECT_EQ(describe_mesh_defects(mesh.positions(), mesh.triangles()), "");
@@ -26,7 +26,7 @@ TEST(EmptyComponents, AreRemoved) {
 
 TEST(EmptyComponents, StayWhereAParticleIsNear) {
   TriangleMesh mesh = test::joined({kBody, kCrumb});
-  EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0.68F, 0, 0)}, kSpacing), 0U);
+  EXPECT_EQ(remove_empty_components(mesh, kFirstNewId, {Vec3f(0.745F, 0, 0)}, kSpacing), 0U);
   EXPECT_EQ(mesh.triangle_count(), kBody.triangle_count() + kCrumb.triangle_count());
 }
 
