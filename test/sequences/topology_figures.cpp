@@ -178,16 +178,18 @@ std::string topology_row(const TopologyFigures& f, const TopologyFigures& first)
 }
 
 std::string topology_notes(const TopologyFigures& f) {
+  const auto text_of = [](const Vec3f& place) {
+    return fmt::format("({:.4f}, {:.4f}, {:.4f})", place.x(), place.y(), place.z());
+  };
   std::string notes;
   for (const WrongBody& body : f.topology.wrong_bodies) {
-    notes +=
-        fmt::format("frame {}: a body of {} with {} particles has {} partners; it is at ({:.4f}, {:.4f}, {:.4f})\n",
-                    f.frame, body.is_of_mesh ? "the mesh" : "φ = 0", body.particles, body.partners, body.vertex.x(),
-                    body.vertex.y(), body.vertex.z());
+    notes += fmt::format("frame {}: wrong is a body of {} at {} with {} particles; its partners:", f.frame,
+                         body.is_of_mesh ? "the mesh" : "φ = 0", text_of(body.vertex), body.particles);
+    for (const Vec3f& partner : body.partners) notes += " " + text_of(partner);
+    notes += body.partners.empty() ? " none\n" : "\n";
   }
   for (const Vec3f& particle : f.topology.uncovered) {
-    notes += fmt::format("frame {}: the particle at ({:.4f}, {:.4f}, {:.4f}) is outside by more than r\n", f.frame,
-                         particle.x(), particle.y(), particle.z());
+    notes += fmt::format("frame {}: outside by more than r is the particle at {}\n", f.frame, text_of(particle));
   }
   return notes;
 }

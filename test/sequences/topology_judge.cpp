@@ -164,7 +164,9 @@ TopologyJudgement TopologyJudge::judge(const SurfaceBodies& mesh, std::shared_pt
     ++judgement.wrong_now;
     if (earlier_phi_ && before.mesh_is_right[m]) continue;
     ++judgement.wrong;
-    judgement.wrong_bodies.push_back({true, mesh.vertex_of(m), mesh_members.sizes[m], now.links.of_first[m].size()});
+    WrongBody body{true, mesh.vertex_of(m), mesh_members.sizes[m], {}};
+    for (const std::uint32_t f : now.links.of_first[m]) body.partners.push_back(phi->vertex_of(f));
+    judgement.wrong_bodies.push_back(std::move(body));
   }
   for (std::uint32_t f = 0; f < phi->size(); ++f) {
     if (!now.phi_is_missing[f]) continue;
@@ -174,7 +176,7 @@ TopologyJudgement TopologyJudge::judge(const SurfaceBodies& mesh, std::shared_pt
     const bool may_be_late = earlier_phi_ && (origin == kNone || before.phi_is_right[origin]);
     if (may_be_late) continue;
     ++judgement.wrong;
-    judgement.wrong_bodies.push_back({false, phi->vertex_of(f), phi_members.sizes[f], 0});
+    judgement.wrong_bodies.push_back({false, phi->vertex_of(f), phi_members.sizes[f], {}});
   }
 
   earlier_phi_ = std::move(phi);

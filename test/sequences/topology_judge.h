@@ -36,7 +36,7 @@ struct WrongBody {
   bool is_of_mesh = false;
   Vec3f vertex = Vec3f::Zero();  ///< One of its own [m].
   std::size_t particles = 0;
-  std::size_t partners = 0;  ///< Bodies of the other surface that are linked to it.
+  std::vector<Vec3f> partners;  ///< A vertex of every body of the other surface that is linked to it [m].
 };
 
 /// How the components of a mesh compare with those of φ = 0.

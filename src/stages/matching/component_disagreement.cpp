@@ -107,7 +107,7 @@ class Bridges {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       if (labels_[a] == labels_[b] || !is_of_body(a) || !is_of_body(b)) continue;
-      if (is_new(a) && is_new(b) && pieces_.holds_both(t, labels_[a], labels_[b])) return true;
+      if ((is_new(a) || is_new(b)) && pieces_.holds_both(t, labels_[a], labels_[b])) return true;
       const double length = (mesh_.positions()[a] - mesh_.positions()[b]).cast<double>().norm();
       if (length > std::max(kLength * h_, kGrowth * longest_edge_at_birth(mesh_, a, b))) return true;
     }
