@@ -89,7 +89,7 @@ struct Parameters {
   TopologyMode topology = TopologyMode::kMatch;
   double dx_gamma = 0.5;  // Δx_Γ: cell size of Γ [r].
   DetectionMethod detection = DetectionMethod::kTauAndSigns;
-  double matching_reach = 2.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
+  double matching_reach = 1.0;  // Γ may change this far from what is flagged; 0: anywhere [r].
   MatchingFrames matching_frames = MatchingFrames::kFlagged;
   MatchingSolver matching_solver = MatchingSolver::kSor;
   double beta = 0.01;  // β: the SOR solver ends when no step is longer [Δx_Γ].

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "particle_surface_tracker/stages/mesh_lattice.h"
@@ -23,9 +27,11 @@ class NodeDistance {
       : lattice_(lattice),
         positions_(lattice.positions()),
         triangles_(lattice.triangles()),
-        reach_squared_(reach * reach) {}
+        reach_squared_(reach * reach),
+        asked_at_(triangles_.size(), 0) {}
 
   double find(const Coord& node) {
+    ++number_;
     const double h = lattice_.h();
     const Vec3d place(lattice_.plane(node.x()), lattice_.plane(node.y()), lattice_.plane(node.z()));
     double closest = reach_squared_;
@@ -35,6 +41,8 @@ class NodeDistance {
       for_cells_of(shell, [&](const Coord& offset) {
         if (0.999 * squared_gap(offset) * h * h >= closest) return;
         for (const std::uint32_t t : lattice_.triangles_in_cell(node + offset)) {
+          // A triangle is in several cells.
+          if (std::exchange(asked_at_[t], number_) == number_) continue;
           const std::array<Vec3d, 3> corners = corners_from(t, place);
           if (squared_distance_to_box(corners) >= closest) continue;
           closest = std::min(closest, squared_distance_to_triangle(corners));
@@ -78,14 +86,17 @@ class NodeDistance {
   const std::vector<Vec3f>& positions_;
   const std::vector<Triangle>& triangles_;
   double reach_squared_;
+  std::uint32_t number_ = 0;             ///< Of the node that is asked about, from 1 on.
+  std::vector<std::uint32_t> asked_at_;  ///< Of each triangle the last node that it was measured from.
 };
 
 }  // namespace
 
 std::vector<float> signed_distances(const MeshLattice& lattice, const std::vector<Coord>& nodes, double reach) {
   std::vector<float> distances(nodes.size());
+  tbb::enumerable_thread_specific<NodeDistance> searches([&] { return NodeDistance(lattice, reach); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), 64), [&](const auto& range) {
-    NodeDistance distance(lattice, reach);
+    NodeDistance& distance = searches.local();
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
       const auto found = static_cast<float>(distance.find(nodes[n]));
       const bool is_inside = lattice.winding_number(nodes[n]) >= 1;

@@ -24,6 +24,9 @@ constexpr int kMostEnlargements = 6;
 /// that a long bubble is not left half done [nodes].
 constexpr int kSmallestGrowth = 3;
 
+/// Up to here distances from the isosurface cost little, and most ψ are smaller [cells].
+constexpr double kNearIsosurface = 4.0;
+
 /// With the paper's ω_opt a few times N sweeps are enough.
 constexpr int kMostIterations = 20000;
 
@@ -119,10 +122,32 @@ class TopologyMatching {
     return std::min(largest + diagonal_, farthest);
   }
 
+  /// φ at nodes, as far as it matters: where it is larger than |ψ|, Γ has its side whatever it is.
+  /// \param psi one per node, and others behind [m].
+  /// \param reach where φ may matter at all [m].
+  std::vector<float> field_at(const std::vector<openvdb::Coord>& nodes, const std::vector<double>& psi,
+                              double reach) const {
+    const double near = std::min(kNearIsosurface * lattice_.h(), reach);
+    std::vector<float> phi = field_.distances(nodes, near);
+    if (near == reach) return phi;
+    // Zeros of Γ are placed by nodes up to a diagonal away from them.
+    std::vector<std::size_t> places;
+    std::vector<openvdb::Coord> far;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (std::abs(static_cast<double>(phi[n])) < near - diagonal_ || std::abs(psi[n]) < near - 2.0 * diagonal_)
+        continue;
+      places.push_back(n);
+      far.push_back(nodes[n]);
+    }
+    const std::vector<float> farther = field_.distances(far, reach);
+    for (std::size_t n = 0; n < far.size(); ++n) phi[places[n]] = farther[n];
+    return phi;
+  }
+
   /// Γ = ψ + φ at the unknowns; at those that are to have the side of φ, without what takes Γ towards the other one.
   void take_over(const NodeMasks& unknown, const MatchingProblem& problem, double reach) {
     result_.nodes = problem.unknowns.nodes();
-    const std::vector<float> phi = field_.distances(result_.nodes, reach);
+    const std::vector<float> phi = field_at(result_.nodes, problem.poisson.values, reach);
     result_.gamma.resize(phi.size());
     for (std::size_t n = 0; n < phi.size(); ++n) {
       double psi = problem.poisson.values[n];

@@ -36,20 +36,18 @@ struct SurfaceView {
   std::uint32_t longest_edge(std::uint32_t triangle) const;
 };
 
-/// Which half-edges of a triangle stand for their edges.
-enum class Sides : std::uint8_t { kBoth, kLowerHalfEdge };
-
 /// Calls visit(ailment, urgency, half_edge) for everything that ails a triangle and its edges.
-template <typename Visit>
-void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, Sides sides, const Tolerances& tolerances,
-                      Visit&& visit) {
+/// \param is_asked about which half-edges of the triangle: is_asked(half_edge).
+template <typename IsAsked, typename Visit>
+void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, const Tolerances& tolerances,
+                      IsAsked&& is_asked, Visit&& visit) {
   const Triangle& vertices = surface.triangles[triangle];
   const Corners corners = surface.corners(triangle);
   const Vec3d normal = area_normal(corners);
   const std::array<double, 3> squares = squared_lengths(corners);
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t h = 3 * triangle + k;
-    if (sides == Sides::kLowerHalfEdge && surface.twins[h] < h) continue;
+    if (!is_asked(h)) continue;
     const std::uint32_t a = vertices[k], b = vertices[(k + 1) % 3];
     if (tolerances.is_long(a, b, squares[k])) visit(Ailment::kLongEdge, squares[k], h);
     if (tolerances.is_short(a, b, squares[k])) visit(Ailment::kShortEdge, -squares[k], h);
@@ -62,5 +60,8 @@ void for_each_ailment(const SurfaceView& surface, std::uint32_t triangle, Sides 
   const double sine = sine_of_smallest_angle(corners);
   if (tolerances.is_sliver(vertices, sine)) visit(Ailment::kSliver, -sine, surface.shortest_edge(triangle));
 }
+
+/// Whether a candidate still has its ailment, just as urgently: what for_each_ailment() would say of its half-edge.
+bool still_ails(const SurfaceView& surface, const Candidate& candidate, const Tolerances& tolerances);
 
 }  // namespace particle_surface_tracker

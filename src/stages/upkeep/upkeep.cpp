@@ -42,8 +42,9 @@ bool find_suspects(const TriangleMesh& mesh, const Tolerances& tolerances, Upkee
   const SurfaceView surface{mesh.positions(), mesh.triangles(), memory.twins.of_half_edges};
   for_each_block(mesh, [&](std::uint32_t block, std::uint32_t first, std::uint32_t last) {
     std::vector<std::uint32_t>& suspects = memory.suspects[block];
+    const auto is_lower = [&](std::uint32_t h) { return h < surface.twins[h]; };
     for (std::uint32_t t = first; t < last; ++t) {
-      for_each_ailment(surface, t, Sides::kLowerHalfEdge, tolerances, [&](Ailment, double, std::uint32_t) {
+      for_each_ailment(surface, t, tolerances, is_lower, [&](Ailment, double, std::uint32_t) {
         if (suspects.empty() || suspects.back() != t) suspects.push_back(t);
       });
     }
@@ -68,7 +69,8 @@ class Upkeep {
     // Until the mesh has the triangles that they belong to.
     twins_.connectivity = 0;
     for (const auto& block : suspects_) {
-      for (const std::uint32_t t : block) enqueue_triangle(t, Sides::kLowerHalfEdge);
+      for (const std::uint32_t t : block)
+        enqueue_triangle(t, [&](std::uint32_t h) { return h < twins_.of_half_edges[h]; });
     }
     work_through_queue();
     for (int pass = 1; pass < kMaxPasses && enqueue_what_may_have_become_possible(); ++pass) work_through_queue();
@@ -100,8 +102,9 @@ class Upkeep {
     return {ailment, urgency, low, high, half_edge};
   }
 
-  void enqueue_triangle(std::uint32_t triangle, Sides sides) {
-    for_each_ailment(view(), triangle, sides, tolerances_, [&](Ailment ailment, double urgency, std::uint32_t h) {
+  template <typename IsAsked>
+  void enqueue_triangle(std::uint32_t triangle, IsAsked&& is_asked) {
+    for_each_ailment(view(), triangle, tolerances_, is_asked, [&](Ailment ailment, double urgency, std::uint32_t h) {
       if (ailment == Ailment::kLongEdge) {
         long_edges_.push_back(candidate(ailment, urgency, h));
       } else {
@@ -111,7 +114,11 @@ class Upkeep {
   }
 
   void enqueue_around(std::uint32_t vertex) {
-    surface_.for_each_outgoing(vertex, [&](std::uint32_t h) { enqueue_triangle(h / 3, Sides::kBoth); });
+    surface_.for_each_outgoing(vertex, [&](std::uint32_t outgoing) {
+      // The edge that leads back is that of the next one's outgoing half-edge.
+      const std::uint32_t incoming = previous_half_edge(outgoing);
+      enqueue_triangle(outgoing / 3, [&](std::uint32_t h) { return h != incoming; });
+    });
   }
 
   /// Long edges are split in rounds, each as one step of subdivision: the new positions follow from the vertices
@@ -127,14 +134,7 @@ class Upkeep {
 
   /// Whether a candidate is still what it was when it was queued.
   bool is_current(const Candidate& queued) const {
-    if (!surface_.is_alive(queued.half_edge / 3)) return false;
-    bool found = false;
-    for_each_ailment(view(), queued.half_edge / 3, Sides::kBoth, tolerances_,
-                     [&](Ailment ailment, double urgency, std::uint32_t h) {
-                       const Candidate now = candidate(ailment, urgency, h);
-                       found = found || (!(now < queued) && !(queued < now));
-                     });
-    return found;
+    return surface_.is_alive(queued.half_edge / 3) && still_ails(view(), queued, tolerances_);
   }
 
   void work_through_queue() {
@@ -235,8 +235,9 @@ class Upkeep {
     if (!operations_.flip(half_edge)) return false;
     ++report_.flips;
     for (const std::uint32_t h : {half_edge, twin}) note_change_around(surface_.start(h));
-    enqueue_triangle(half_edge / 3, Sides::kBoth);
-    enqueue_triangle(twin / 3, Sides::kBoth);
+    const auto all = [](std::uint32_t) { return true; };
+    enqueue_triangle(half_edge / 3, all);
+    enqueue_triangle(twin / 3, all);
     return true;
   }
 
