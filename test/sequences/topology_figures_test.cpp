@@ -75,6 +75,21 @@ TEST(TopologyFigures, OneFrameInAHundredMayDifferInTopology) {
   EXPECT_EQ(passed(figures), (std::vector<bool>{true, true, false, false, true, true}));
 }
 
+TEST(TopologyFigures, NotesSayWhereSomethingIsWrong) {
+  TopologyFigures figures = good_sequence(1).front();
+  EXPECT_EQ(topology_notes(figures), "");
+  figures.frame = 7;
+  figures.topology.wrong_bodies = {{true, {1.0F, 2.0F, 3.0F}, 12, {{4.0F, 5.0F, 6.0F}}},
+                                   {false, {7.0F, 8.0F, 9.0F}, 20, {}}};
+  figures.topology.uncovered = {{0.5F, 0.25F, 0.125F}};
+  EXPECT_EQ(
+      topology_notes(figures),
+      "frame 7: wrong is a body of the mesh at (1.0000, 2.0000, 3.0000) with 12 particles; its partners: (4.0000, "
+      "5.0000, 6.0000)\n"
+      "frame 7: wrong is a body of φ = 0 at (7.0000, 8.0000, 9.0000) with 20 particles; its partners: none\n"
+      "frame 7: outside by more than r is the particle at (0.5000, 0.2500, 0.1250)\n");
+}
+
 TEST(TopologyFigures, VolumeIsRelativeToTheFirstFrame) {
   std::vector<TopologyFigures> figures = good_sequence(3);
   figures[1].volume_ratio = 1.02 * 0.951;

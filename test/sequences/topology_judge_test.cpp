@@ -77,7 +77,7 @@ TEST(TopologyJudge, EqualSurfacesAreEqual) {
     EXPECT_EQ(judgement.mesh_bodies, boxes.size());
     EXPECT_EQ(judgement.phi_bodies, boxes.size());
     EXPECT_EQ(judgement.small_phi_bodies, 0u);
-    EXPECT_EQ(judgement.uncovered_particles, 0u);
+    EXPECT_TRUE(judgement.uncovered.empty());
     EXPECT_EQ(judgement.splits + judgement.merges, 0u);
   }
 }
@@ -152,7 +152,7 @@ TEST(TopologyJudge, SmallComponentsOfPhiAreNotCompared) {
   EXPECT_EQ(without.small_phi_bodies, 1u);
   EXPECT_EQ(without.phi_bodies, 1u);
   EXPECT_TRUE(without.is_equal());
-  EXPECT_EQ(without.uncovered_particles, 0u);
+  EXPECT_TRUE(without.uncovered.empty());
   EXPECT_TRUE(BoxJudge().judge(with_four, with_four).is_equal());
   EXPECT_FALSE(BoxJudge().judge({bar(0, 10)}, with_eight).is_equal());
   EXPECT_TRUE(BoxJudge().judge(with_eight, with_eight).is_equal());
@@ -170,6 +170,28 @@ TEST(TopologyJudge, StrayAndDoubleComponentsOfTheMeshAreWrong) {
   EXPECT_TRUE(BoxJudge().judge({bar(0, 10), {{18.2, 1, 1}, {18.4, 2, 2}}}, {bar(0, 10), thread(14, 18)}).is_equal());
 }
 
+TEST(TopologyJudge, SaysWhichBodiesAreWrong) {
+  const TopologyJudgement joined_too_long = BoxJudge().judge({bar(0, 20), bar(30, 40)}, {bar(0, 10), bar(10.5, 20)});
+  ASSERT_EQ(joined_too_long.wrong_bodies.size(), 2u);
+  const WrongBody& whole = joined_too_long.wrong_bodies[0];
+  EXPECT_TRUE(whole.is_of_mesh);
+  EXPECT_LE(whole.vertex.x(), 20.0F);
+  ASSERT_EQ(whole.partners.size(), 2u);
+  EXPECT_LE(whole.partners[0].x(), 10.0F);
+  EXPECT_GE(whole.partners[1].x(), 10.5F);
+  const WrongBody& stray = joined_too_long.wrong_bodies[1];
+  EXPECT_TRUE(stray.is_of_mesh);
+  EXPECT_GE(stray.vertex.x(), 30.0F);
+  EXPECT_EQ(stray.particles, 0u);
+  EXPECT_TRUE(stray.partners.empty());
+
+  const TopologyJudgement missing = BoxJudge().judge({bar(0, 10)}, {bar(0, 10), bar(13, 20)});
+  ASSERT_EQ(missing.wrong_bodies.size(), 1u);
+  EXPECT_FALSE(missing.wrong_bodies[0].is_of_mesh);
+  EXPECT_GE(missing.wrong_bodies[0].vertex.x(), 13.0F);
+  EXPECT_GE(missing.wrong_bodies[0].particles, 8u);
+}
+
 TEST(TopologyJudge, BodiesOfTheMeshThatOverlapAreTwo) {
   EXPECT_EQ(BoxJudge().judge({bar(0, 12), bar(8, 20)}, kWhole).wrong, 2u);
 }
@@ -180,7 +202,7 @@ TEST(TopologyJudge, ParticlesJustOutsideDoNotLinkBodies) {
   const TopologyJudgement judgement = BoxJudge().judge(shrunk, shrunk, kHalves);
   EXPECT_TRUE(judgement.is_equal());
   EXPECT_EQ(judgement.wrong_now, 0u);
-  EXPECT_EQ(judgement.uncovered_particles, 0u);
+  EXPECT_TRUE(judgement.uncovered.empty());
 }
 
 TEST(TopologyJudge, CountsParticlesThatTheMeshLost) {
