@@ -15,7 +15,7 @@ namespace particle_surface_tracker {
 namespace {
 
 constexpr std::string_view kMagic = "PSTCHKP\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeadSize = kMagic.size() + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 
 std::uint32_t checksum(std::string_view head, std::string_view body) {

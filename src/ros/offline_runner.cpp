@@ -201,7 +201,7 @@ class OfflineRun {
     Checkpoint checkpoint;
     handler_->save(checkpoint);
     input_.save(checkpoint);
-    checkpoint.sections[run_section] = to_bytes(RunProgress{options_.first, next_, outputs});
+    checkpoint.sections[run_section] = to_bytes(RunProgress{options_.first, next_, options_.interpolate, outputs});
     write_checkpoint(options_.checkpoint, checkpoint);
     times_.add("checkpoints", saving.seconds());
   }

@@ -1,5 +1,7 @@
 #include "run_checkpoint.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "parameter_agreement.h"
@@ -31,6 +33,8 @@ std::string to_bytes(const RunProgress& progress) {
   ByteWriter bytes;
   bytes.put(progress.first);
   bytes.put(progress.next);
+  bytes.put(static_cast<std::uint64_t>(progress.interpolate.size()));
+  for (const std::string& field : progress.interpolate) bytes.put(std::string_view(field));
   bytes.put(static_cast<std::uint8_t>(outputs.report_bytes.has_value()));
   bytes.put(outputs.report_bytes.value_or(0));
   bytes.put(static_cast<std::uint8_t>(outputs.bag.has_value()));
@@ -44,6 +48,9 @@ RunProgress run_progress_from(const std::string& bytes) {
   RunProgress progress;
   progress.first = reader.number<std::uint64_t>("first frame");
   progress.next = reader.number<std::uint64_t>("next frame");
+  constexpr std::size_t shortest_text = sizeof(std::uint64_t);
+  progress.interpolate.resize(reader.length(shortest_text, "interpolated fields"));
+  for (std::string& field : progress.interpolate) field = reader.text("name of a field");
   const bool has_report = reader.number<std::uint8_t>("report") != 0;
   const auto report_bytes = reader.number<std::uint64_t>("length of the report");
   if (has_report) progress.outputs.report_bytes = report_bytes;
@@ -63,6 +70,12 @@ RunProgress require_this_run(const Checkpoint& checkpoint, const OfflineOptions&
   if (progress.first != options.first) {
     throw ParameterError(
         fmt::format("--first {}: the run of the checkpoint began with frame {}", options.first, progress.first));
+  }
+  if (progress.interpolate != options.interpolate) {
+    throw ParameterError(
+        fmt::format("--interpolate: '{}', but the run of the checkpoint had '{}'; its meshes would "
+                    "not have the same fields",
+                    fmt::join(options.interpolate, ","), fmt::join(progress.interpolate, ",")));
   }
   require_agreement(checkpoint.tracker.parameters, options.parameters, Agreement::kAll,
                     /*any_spacing*/ options.estimate_spacing);

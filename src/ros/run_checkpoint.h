@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bag_parts.h"
 #include "particle_surface_tracker/io/checkpoint.h"
@@ -19,8 +20,9 @@ struct OutputProgress {
 
 /// How far a run has got.
 struct RunProgress {
-  std::uint64_t first = 0;  ///< Index of the run's first frame.
-  std::uint64_t next = 0;   ///< Index of the frame that it goes on with.
+  std::uint64_t first = 0;               ///< Index of the run's first frame.
+  std::uint64_t next = 0;                ///< Index of the frame that it goes on with.
+  std::vector<std::string> interpolate;  ///< Fields of the particles that meshes so far have.
   OutputProgress outputs;
 };
 
@@ -33,7 +35,7 @@ std::string to_bytes(const RunProgress& progress);
 RunProgress run_progress_from(const std::string& bytes);
 
 /// Checks that a run with these options is the one that a checkpoint was kept of.
-/// \throw ParameterError if it has other parameters or another first frame.
+/// \throw ParameterError if it has other parameters, another first frame or interpolates other fields.
 /// \throw InputError if the checkpoint is none of a run, or the bag holds other particles than those of its last frame.
 RunProgress require_this_run(const Checkpoint& checkpoint, const OfflineOptions& options, ParticleBag& bag);
 

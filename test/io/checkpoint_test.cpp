@@ -179,9 +179,9 @@ TEST(Checkpoint, SaysWhatIsWrong) {
   says("", "no checkpoint");
   says("ply\nformat ascii 1.0\n", "no checkpoint");
   std::string newer = bytes;
-  newer[8] = 2;
-  says(newer, "version 2");
-  says(with_checksum(newer), "version 2");
+  newer[8] = 3;
+  says(newer, "version 3");
+  says(with_checksum(newer), "version 3");
   says(bytes.substr(0, bytes.size() - 1), "damaged");
   std::string flipped = bytes;
   flipped.back() = static_cast<char>(flipped.back() ^ 1);

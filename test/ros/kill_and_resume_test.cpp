@@ -219,6 +219,7 @@ TEST_F(Resume, WhatDoesNotFitIsSaid) {
   expect_refusal(1, {"--set", "tau=0.4", "--set", "epsilon=0.5"}, "epsilon is 0.35 there and 0.5 here");
   expect_refusal(1, {"--spacing", "0.21"}, "particle_spacing is 0.2 there and 0.21 here");
   expect_refusal(1, {"--first", "1"}, "began with frame 0");
+  expect_refusal(1, {"--interpolate", "velocity,rgb"}, "'velocity,rgb', but the run of the checkpoint had ''");
   expect_refusal(1, {"--last", "3"}, "goes on with frame 7");
   expect_refusal(2, {"--report", "@/other.jsonl"}, "other.jsonl");
   expect_refusal(2, {"--out-bag", "@/other.bag"}, "other.bag");
