@@ -13,6 +13,8 @@
 
 namespace particle_surface_tracker {
 
+class NodeMasks;
+
 // Where the explicit mesh meets the lattice of Γ (Sec. 6). Node (i, j, k) is at (fl(i·h), fl(j·h), fl(k·h)) [m], h =
 // Δx_Γ; cell c has its lowest corner at node c.
 //
@@ -133,6 +135,9 @@ class MeshLattice {
 
   /// Cells for which triangles_in_cell() is not empty, in an order that depends on the mesh only.
   std::vector<openvdb::Coord> cells() const;
+
+  /// The same without the cells of a set.
+  std::vector<openvdb::Coord> cells_outside(const NodeMasks& set) const;
 
   /// The cell that a vertex is in.
   openvdb::Coord cell_of_vertex(std::uint32_t vertex) const;

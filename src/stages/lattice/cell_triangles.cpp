@@ -1,6 +1,7 @@
 #include "cell_triangles.h"
 
 #include <algorithm>
+#include <array>
 
 #include "triangle_blocks.h"
 #include "triangle_slicer.h"
@@ -13,6 +14,9 @@ using openvdb::Coord;
 
 constexpr int kWidth = 8;
 constexpr std::uint32_t kCellsPerLeaf = 512;
+
+/// Instead of the place of a cell: all cells of the leaf that the triangle's bounding box meets.
+constexpr std::uint32_t kWholeBox = kCellsPerLeaf;
 
 /// Of triangles that span no more cells than this, all cells of the bounding box count: cutting them costs more than
 /// the cells that they do not meet.
@@ -27,42 +31,51 @@ std::uint32_t place_in_leaf(const Coord& cell) {
   return static_cast<std::uint32_t>((place.x() * kWidth + place.y()) * kWidth + place.z());
 }
 
-/// The cells that the triangles of a block meet, with leaves numbered in the order of their first occurrence.
-class Meetings {
- public:
-  void reserve() {
-    constexpr std::size_t cells_per_triangle = 6;
-    cells.reserve(cells_per_triangle * kTrianglesPerBlock);
-    ends.reserve(kTrianglesPerBlock);
+openvdb::CoordBBox box_of(const LatticeMesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangle(triangle);
+  return {Coord::minComponent(Coord::minComponent(mesh.cells[a], mesh.cells[b]), mesh.cells[c]),
+          Coord::maxComponent(Coord::maxComponent(mesh.cells[a], mesh.cells[b]), mesh.cells[c])};
+}
+
+/// The cells of a box that are in a leaf, from its lowest cell.
+openvdb::CoordBBox part_in(const Coord& leaf, openvdb::CoordBBox box) {
+  box.intersect(openvdb::CoordBBox::createCube(leaf, kWidth));
+  box.translate(-leaf);
+  return box;
+}
+
+/// \param box as from part_in().
+void add_box(const openvdb::CoordBBox& box, LeafWords& words) {
+  const std::uint64_t row = (std::uint64_t{2} << box.max().z()) - (std::uint64_t{1} << box.min().z());
+  std::uint64_t slice = 0;
+  for (std::int32_t y = box.min().y(); y <= box.max().y(); ++y) slice |= row << (kWidth * y);
+  for (std::int32_t x = box.min().x(); x <= box.max().x(); ++x) words[x] |= slice;
+}
+
+/// Where the triangles of a block are, with leaves numbered in the order of their first occurrence.
+struct Meetings {
+  struct Meeting {
+    std::uint32_t triangle;
+    std::uint32_t leaf;
+    std::uint32_t place;
+  };
+
+  void append_box(std::uint32_t triangle, const Coord& leaf, const openvdb::CoordBBox& box) {
+    all.push_back({triangle, number_of(leaf), kWholeBox});
+    add_box(part_in(leaf, box), in_use[last_]);
   }
 
-  void append(const Coord& cell) { cells.push_back(kCellsPerLeaf * number_of(leaf_of(cell)) + place_in_leaf(cell)); }
-
-  void append_box(const Coord& lower, const Coord& upper) {
-    if (leaf_of(lower) != leaf_of(upper)) {
-      for_each_in(lower, upper, [&](const Coord& cell) { append(cell); });
-      return;
-    }
-    const std::uint32_t first = kCellsPerLeaf * number_of(leaf_of(lower));
-    for_each_in(lower, upper, [&](const Coord& cell) { cells.push_back(first + place_in_leaf(cell)); });
+  void append_cell(std::uint32_t triangle, const Coord& cell) {
+    const std::uint32_t place = place_in_leaf(cell);
+    all.push_back({triangle, number_of(leaf_of(cell)), place});
+    in_use[last_][place / 64] |= std::uint64_t{1} << (place % 64);
   }
-
-  void end_triangle() { ends.push_back(static_cast<std::uint32_t>(cells.size())); }
 
   std::vector<Coord> leaves;
-  std::vector<std::uint32_t> cells;  ///< Number of the leaf times kCellsPerLeaf, plus the place; triangle by triangle.
-  std::vector<std::uint32_t> ends;   ///< Where those of each triangle end.
+  std::vector<LeafWords> in_use;  ///< Of each leaf the cells with triangles.
+  std::vector<Meeting> all;
 
  private:
-  template <typename Visit>
-  static void for_each_in(const Coord& lower, const Coord& upper, Visit&& visit) {
-    for (std::int32_t i = lower.x(); i <= upper.x(); ++i) {
-      for (std::int32_t j = lower.y(); j <= upper.y(); ++j) {
-        for (std::int32_t k = lower.z(); k <= upper.z(); ++k) visit(Coord(i, j, k));
-      }
-    }
-  }
-
   std::uint32_t number_of(const Coord& leaf) {
     if (!leaves.empty() && leaf == leaves[last_]) return last_;
     last_ = index_.find(leaf);
@@ -70,6 +83,7 @@ class Meetings {
       last_ = static_cast<std::uint32_t>(leaves.size());
       index_.insert(leaf, last_);
       leaves.push_back(leaf);
+      in_use.emplace_back();
     }
     return last_;
   }
@@ -78,33 +92,39 @@ class Meetings {
   std::uint32_t last_ = 0;
 };
 
-class CellFinder {
+class LeafFinder {
  public:
-  explicit CellFinder(const LatticeMesh& mesh) : mesh_(mesh), slicer_(mesh) {}
+  LeafFinder(const LatticeMesh& mesh, Meetings& meetings) : mesh_(mesh), slicer_(mesh), meetings_(meetings) {}
 
-  void append_cells(std::uint32_t triangle, Meetings& meetings) {
-    const auto& [a, b, c] = mesh_.triangle(triangle);
-    const Coord lower = Coord::minComponent(Coord::minComponent(mesh_.cells[a], mesh_.cells[b]), mesh_.cells[c]);
-    const Coord upper = Coord::maxComponent(Coord::maxComponent(mesh_.cells[a], mesh_.cells[b]), mesh_.cells[c]);
-    if (box_size(lower, upper) > kSmallBox) {
-      append_cut_cells(triangle, meetings);
+  void append(std::uint32_t triangle) {
+    const openvdb::CoordBBox box = box_of(mesh_, triangle);
+    const Coord first = leaf_of(box.min()), last = leaf_of(box.max());
+    if (size_of(box) > kSmallBox) {
+      append_cut_cells(triangle);
+    } else if (first == last) {
+      meetings_.append_box(triangle, first, box);
     } else {
-      meetings.append_box(lower, upper);
+      for (std::int32_t x = first.x(); x <= last.x(); x += kWidth) {
+        for (std::int32_t y = first.y(); y <= last.y(); y += kWidth) {
+          for (std::int32_t z = first.z(); z <= last.z(); z += kWidth) {
+            meetings_.append_box(triangle, Coord(x, y, z), box);
+          }
+        }
+      }
     }
-    meetings.end_triangle();
   }
 
  private:
-  /// Number of cells from lower to upper, or something above kSmallBox if it is more than that.
-  static std::int64_t box_size(const Coord& lower, const Coord& upper) {
+  /// Number of cells, or something above kSmallBox if it is more than that.
+  static std::int64_t size_of(const openvdb::CoordBBox& box) {
     std::int64_t size = 1;
     for (int axis = 0; axis < 3; ++axis) {
-      size *= std::min<std::int64_t>(std::int64_t{upper[axis]} - lower[axis] + 1, kSmallBox + 1);
+      size *= std::min<std::int64_t>(std::int64_t{box.max()[axis]} - box.min()[axis] + 1, kSmallBox + 1);
     }
     return size;
   }
 
-  void append_cut_cells(std::uint32_t triangle, Meetings& meetings) {
+  void append_cut_cells(std::uint32_t triangle) {
     slicer_.cut(triangle, cut_);
     cells_.assign(cut_.cells.begin(), cut_.cells.end());
     for (const TriangleCut::Segment& segment : cut_.segments) {
@@ -113,70 +133,114 @@ class CellFinder {
     }
     std::sort(cells_.begin(), cells_.end());
     cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
-    for (const Coord& cell : cells_) meetings.append(cell);
+    for (const Coord& cell : cells_) meetings_.append_cell(triangle, cell);
   }
 
   const LatticeMesh& mesh_;
   TriangleSlicer slicer_;
+  Meetings& meetings_;
   TriangleCut cut_;
   std::vector<Coord> cells_;
 };
 
 }  // namespace
 
-CellTriangles::CellTriangles(const LatticeMesh& mesh) : index_(mesh.triangles->size() / 32) {
+CellTriangles::CellTriangles(const LatticeMesh& mesh) : mesh_(mesh), index_(mesh.triangles->size() / 32) {
   std::vector<Meetings> found(triangle_block_count(mesh));
   for_triangle_blocks(mesh, [&](std::size_t block, std::uint32_t begin, std::uint32_t end) {
-    CellFinder finder(mesh);
-    found[block].reserve();
-    for (std::uint32_t t = begin; t < end; ++t) finder.append_cells(t, found[block]);
+    found[block].all.reserve(2 * kTrianglesPerBlock);
+    LeafFinder finder(mesh, found[block]);
+    for (std::uint32_t t = begin; t < end; ++t) finder.append(t);
   });
-  std::size_t count = 0;
+  begin_.assign(2, 0);
   for (Meetings& meetings : found) {
-    count += meetings.cells.size();
-    std::vector<std::uint32_t> first_cells;
-    for (const Coord& leaf : meetings.leaves) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t n = 0; n < meetings.leaves.size(); ++n) {
+      const Coord& leaf = meetings.leaves[n];
       std::uint32_t number = index_.find(leaf);
       if (number == LeafIndex::none) {
         number = static_cast<std::uint32_t>(leaves_.size());
         index_.insert(leaf, number);
         leaves_.push_back(leaf);
+        in_use_.emplace_back();
+        begin_.push_back(0);
       }
-      first_cells.push_back(kCellsPerLeaf * number);
+      add_words(meetings.in_use[n], in_use_[number]);
+      numbers.push_back(number);
     }
-    for (std::uint32_t& cell : meetings.cells) cell = first_cells[cell / kCellsPerLeaf] + cell % kCellsPerLeaf;
-  }
-  begin_.assign(leaves_.size() * kCellsPerLeaf + 2, 0);
-  for (const Meetings& meetings : found) {
-    for (const std::uint32_t cell : meetings.cells) ++begin_[std::size_t{cell} + 2];
+    for (Meetings::Meeting& meeting : meetings.all) {
+      meeting.leaf = numbers[meeting.leaf];
+      ++begin_[std::size_t{meeting.leaf} + 2];
+    }
   }
   for (std::size_t n = 2; n < begin_.size(); ++n) begin_[n] += begin_[n - 1];
-  triangles_.resize(count);
-  std::uint32_t triangle = 0;
+  entries_.resize(begin_.back());
   for (const Meetings& meetings : found) {
-    std::uint32_t n = 0;
-    for (const std::uint32_t end : meetings.ends) {
-      for (; n < end; ++n) triangles_[begin_[std::size_t{meetings.cells[n]} + 1]++] = triangle;
-      ++triangle;
+    for (const Meetings::Meeting& m : meetings.all) entries_[begin_[std::size_t{m.leaf} + 1]++] = {m.triangle, m.place};
+  }
+  sorted_ = std::make_unique<SortedLeaf[]>(leaves_.size());
+}
+
+template <typename Visit>
+void CellTriangles::for_each_place(std::uint32_t leaf, const Entry& entry, Visit&& visit) const {
+  if (entry.place != kWholeBox) {
+    visit(entry.place);
+    return;
+  }
+  const openvdb::CoordBBox box = part_in(leaves_[leaf], box_of(mesh_, entry.triangle));
+  for (std::int32_t x = box.min().x(); x <= box.max().x(); ++x) {
+    for (std::int32_t y = box.min().y(); y <= box.max().y(); ++y) {
+      for (std::int32_t z = box.min().z(); z <= box.max().z(); ++z) {
+        visit(static_cast<std::uint32_t>((x * kWidth + y) * kWidth + z));
+      }
     }
   }
+}
+
+void CellTriangles::sort(std::uint32_t leaf, std::vector<std::uint32_t>& data) const {
+  const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(begin_[leaf]);
+  const auto last = entries_.begin() + static_cast<std::ptrdiff_t>(begin_[leaf + 1]);
+  std::array<std::uint32_t, kCellsPerLeaf + 2> ends{};
+  for (auto entry = first; entry != last; ++entry) {
+    for_each_place(leaf, *entry, [&](std::uint32_t place) { ++ends[place + 2]; });
+  }
+  ends[0] = ends[1] = kCellsPerLeaf + 1;
+  for (std::size_t n = 2; n < ends.size(); ++n) ends[n] += ends[n - 1];
+  data.resize(ends.back());
+  for (auto entry = first; entry != last; ++entry) {
+    for_each_place(leaf, *entry, [&](std::uint32_t place) { data[ends[place + 1]++] = entry->triangle; });
+  }
+  // What was moved to the end of each cell is where the next one begins.
+  std::copy_n(ends.begin(), kCellsPerLeaf + 1, data.begin());
+}
+
+const CellTriangles::SortedLeaf& CellTriangles::sorted(std::uint32_t leaf) const {
+  SortedLeaf& found = sorted_[leaf];
+  if (!found.is_sorted.load(std::memory_order_acquire)) {
+    std::call_once(found.sorting, [&] {
+      sort(leaf, found.data);
+      found.is_sorted.store(true, std::memory_order_release);
+    });
+  }
+  return found;
 }
 
 ArrayRange<std::uint32_t> CellTriangles::in_cell(const Coord& cell) const {
   const std::uint32_t leaf = index_.find(leaf_of(cell));
   if (leaf == LeafIndex::none) return {};
-  const std::size_t n = std::size_t{leaf} * kCellsPerLeaf + place_in_leaf(cell);
-  return {triangles_.data() + begin_[n], triangles_.data() + begin_[n + 1]};
+  const std::uint32_t* data = sorted(leaf).data.data();
+  const std::uint32_t place = place_in_leaf(cell);
+  return {data + data[place], data + data[place + 1]};
 }
 
-std::vector<Coord> CellTriangles::cells() const {
+std::vector<Coord> CellTriangles::cells_outside(const NodeMasks& set) const {
   std::vector<Coord> cells;
-  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-    for (std::uint32_t place = 0; place < kCellsPerLeaf; ++place) {
-      const std::size_t n = leaf * kCellsPerLeaf + place;
-      if (begin_[n] == begin_[n + 1]) continue;
-      const auto p = static_cast<std::int32_t>(place);
-      cells.push_back(leaves_[leaf].offsetBy(p / 64, p / 8 % 8, p % 8));
+  for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    LeafWords words = in_use_[leaf];
+    const std::uint32_t known = set.find(leaves_[leaf]);
+    for (int x = 0; x < kWidth; ++x) {
+      if (known != LeafIndex::none) words[x] &= ~set.leaves()[known].words[x];
+      for_each_bit(words[x], [&](int bit) { cells.push_back(leaves_[leaf].offsetBy(x, bit >> 3, bit & 7)); });
     }
   }
   return cells;

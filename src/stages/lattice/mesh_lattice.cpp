@@ -53,7 +53,11 @@ ArrayRange<std::uint32_t> MeshLattice::triangles_in_cell(const openvdb::Coord& c
 }
 
 std::vector<openvdb::Coord> MeshLattice::cells() const {
-  return data_->cells.cells();
+  return data_->cells.cells_outside(NodeMasks());
+}
+
+std::vector<openvdb::Coord> MeshLattice::cells_outside(const NodeMasks& set) const {
+  return data_->cells.cells_outside(set);
 }
 
 openvdb::Coord MeshLattice::cell_of_vertex(std::uint32_t vertex) const {

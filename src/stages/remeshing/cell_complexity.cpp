@@ -101,8 +101,7 @@ CellComplexity classify_cells(const GammaNodes& gamma) {
 std::vector<openvdb::Coord> find_deep_cells(TriangleCuts& cuts, const NodeMasks& near_sign_change,
                                             const SmallComponents& small) {
   std::vector<openvdb::Coord> deep;
-  for (const openvdb::Coord& cell : cuts.lattice().cells()) {
-    if (near_sign_change.contains(cell)) continue;
+  for (const openvdb::Coord& cell : cuts.lattice().cells_outside(near_sign_change)) {
     const auto triangles = cuts.lattice().triangles_in_cell(cell);
     const bool holds_mesh = std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
       return !small.contain(triangle) && cuts.meets(triangle, cell);

@@ -6,10 +6,12 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include "particle_surface_tracker/core/error.h"
 #include "particle_surface_tracker/core/triangle_mesh.h"
 
+#include "stages/nodes/node_masks.h"
 #include "support/shapes.h"
 
 namespace particle_surface_tracker {
@@ -172,6 +174,46 @@ TEST(MeshLattice, TrianglesOfACellAreFound) {
   EXPECT_GE(count, sphere.triangle_count());
   EXPECT_TRUE(lattice.triangles_in_cell(Coord(0, 0, 0)).empty());
   EXPECT_TRUE(lattice.triangles_in_cell(Coord(100000, 0, 0)).empty());
+}
+
+TEST(MeshLattice, CellsAreThoseWithTriangles) {
+  // Small triangles, whose bounding box counts, and large ones, which are cut.
+  const TriangleMesh mesh =
+      test::joined({test::make_sphere({0.1, 0.2, 0.3}, 0.7, 3), test::make_box({-2, -2, -2}, {2, 2, 2})});
+  const MeshLattice lattice = lattice_of(mesh, 0.13);
+  std::vector<Coord> with_triangles, odd;
+  NodeMasks even;
+  for (auto cell = openvdb::CoordBBox(Coord(-20), Coord(20)).begin(); cell; ++cell) {
+    const Coord place = *cell;
+    if (lattice.triangles_in_cell(place).empty()) continue;
+    with_triangles.push_back(place);
+    if ((place.x() + place.y() + place.z()) % 2 == 0) {
+      even.insert(place);
+    } else {
+      odd.push_back(place);
+    }
+  }
+  const auto sorted = [](std::vector<Coord> cells) {
+    std::sort(cells.begin(), cells.end());
+    return cells;
+  };
+  EXPECT_EQ(sorted(lattice.cells()), sorted(with_triangles));
+  EXPECT_EQ(sorted(lattice.cells_outside(even)), sorted(odd));
+  EXPECT_FALSE(odd.empty());
+}
+
+TEST(MeshLattice, TrianglesOfCellsAreTheSameForSeveralThreads) {
+  const TriangleMesh sphere = test::make_sphere({0.1, 0.2, 0.3}, 0.7, 4);
+  const MeshLattice alone = lattice_of(sphere, 0.05), shared = lattice_of(sphere, 0.05);
+  const std::vector<Coord> cells = alone.cells();
+  std::vector<char> agrees(8 * cells.size(), 0);
+  tbb::parallel_for(std::size_t{0}, agrees.size(), [&](std::size_t n) {
+    // Threads begin at different places and meet in the same leaves.
+    const Coord cell = cells[(n / 8 + n % 8 * 100) % cells.size()];
+    const auto found = shared.triangles_in_cell(cell);
+    agrees[n] = static_cast<char>(!found.empty() && found.size() == alone.triangles_in_cell(cell).size());
+  });
+  EXPECT_EQ(std::count(agrees.begin(), agrees.end(), 1), static_cast<std::ptrdiff_t>(agrees.size()));
 }
 
 TEST(MeshLattice, NoMeshIsOutsideEverywhere) {
