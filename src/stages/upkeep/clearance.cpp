@@ -9,31 +9,35 @@ bool Clearance::stays_clear(const EditableSurface& surface, const PlannedPatch& 
                             const Surroundings& surroundings) {
   planned_.clear();
   for (const PatchTriangle& triangle : patch.triangles) {
-    planned_.push_back(make_boxed(triangle.vertices, triangle.corners));
+    planned_.add(triangle.vertices, triangle.corners);
   }
-  find_others(planned_, patch, surroundings);
-  if (!crosses(surface, planned_)) return true;
+  find_others(planned_.box, patch, surroundings);
+  if (!crosses(surface, planned_.all)) return true;
 
   replaced_.clear();
   for (const std::uint32_t t : patch.replaced) {
-    replaced_.push_back(make_boxed(surface.triangle(t), surface.corners(t)));
+    replaced_.add(surface.triangle(t), surface.corners(t));
   }
-  find_others(replaced_, patch, surroundings);
-  return crosses(surface, replaced_);
+  find_others(replaced_.box, patch, surroundings);
+  return crosses(surface, replaced_.all);
+}
+
+void Clearance::BoxedTriangles::clear() {
+  all.clear();
+  box.setEmpty();
 }
 
 /// The corners are stored as floats, so the box is exact.
-Clearance::BoxedTriangle Clearance::make_boxed(const Triangle& vertices, const Corners& corners) {
-  BoxedTriangle boxed{place_triangle(vertices, corners), {}};
-  for (const Vec3d& corner : corners) boxed.box.extend(corner.cast<float>());
-  return boxed;
+void Clearance::BoxedTriangles::add(const Triangle& vertices, const Corners& corners) {
+  Eigen::AlignedBox3f of_triangle;
+  for (const Vec3d& corner : corners) of_triangle.extend(corner.cast<float>());
+  all.emplace_back(vertices, corners, of_triangle);
+  box.extend(of_triangle);
 }
 
-/// The entries whose box meets that of all the triangles together; without those of what the patch replaces.
-void Clearance::find_others(const std::vector<BoxedTriangle>& triangles, const PlannedPatch& patch,
+/// The entries whose box meets one; without those of what the patch replaces.
+void Clearance::find_others(const Eigen::AlignedBox3f& box, const PlannedPatch& patch,
                             const Surroundings& surroundings) {
-  Eigen::AlignedBox3f box;
-  for (const BoxedTriangle& triangle : triangles) box.extend(triangle.box);
   others_.clear();
   surroundings.for_each_near(box, [&](const Surroundings::Entry& entry) {
     const auto& replaced = patch.replaced;
@@ -50,7 +54,7 @@ bool Clearance::crosses(const EditableSurface& surface, const std::vector<BoxedT
   for (const Surroundings::Entry& other : others_) {
     std::optional<PlacedTriangle> placed;
     for (const BoxedTriangle& triangle : triangles) {
-      if (!triangle.box.intersects(other.box)) continue;
+      if (!triangle.query.meets(other.box)) continue;
       if (!placed) {
         if (!surface.is_alive(other.triangle)) break;
         placed = place_triangle(surface.triangle(other.triangle), surface.corners(other.triangle));

@@ -20,17 +20,27 @@ class Clearance {
 
  private:
   struct BoxedTriangle {
+    BoxedTriangle(const Triangle& vertices, const Corners& corners, const Eigen::AlignedBox3f& box)
+        : triangle(place_triangle(vertices, corners)), query(box) {}
+
     PlacedTriangle triangle;
-    Eigen::AlignedBox3f box;
+    BoxQuery query;
   };
 
-  static BoxedTriangle make_boxed(const Triangle& vertices, const Corners& corners);
-  void find_others(const std::vector<BoxedTriangle>& triangles, const PlannedPatch& patch,
-                   const Surroundings& surroundings);
+  /// Some triangles and the box around them all.
+  struct BoxedTriangles {
+    std::vector<BoxedTriangle> all;
+    Eigen::AlignedBox3f box;
+
+    void clear();
+    void add(const Triangle& vertices, const Corners& corners);
+  };
+
+  void find_others(const Eigen::AlignedBox3f& box, const PlannedPatch& patch, const Surroundings& surroundings);
   bool crosses(const EditableSurface& surface, const std::vector<BoxedTriangle>& triangles) const;
 
   // Memory for the search.
-  std::vector<BoxedTriangle> planned_, replaced_;
+  BoxedTriangles planned_, replaced_;
   std::vector<Surroundings::Entry> others_;
 };
 

@@ -59,7 +59,8 @@ Surroundings::Place Surroundings::place_of(std::uint32_t triangle) const {
   while (level + 1 < kLevels && extent * inverse_cell_size_[level] > 1.0) ++level;
   const Cell cell = cell_of(box.min(), level);
   const Cell block = {cell[0] >> kBlockBits, cell[1] >> kBlockBits, cell[2] >> kBlockBits};
-  return {{box, triangle}, level, static_cast<std::uint32_t>(first_slot_of(block, level) + slot_in_block(cell))};
+  return {
+      {PackedBox(box), triangle}, level, static_cast<std::uint32_t>(first_slot_of(block, level) + slot_in_block(cell))};
 }
 
 Surroundings::Entry& Surroundings::entry_at(std::uint32_t index) {

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "editable_surface.h"
+#include "packed_box.h"
 
 namespace particle_surface_tracker {
 
@@ -18,7 +19,7 @@ namespace particle_surface_tracker {
 class Surroundings {
  public:
   struct Entry {
-    Eigen::AlignedBox3f box;  ///< When it was entered; a triangle that changes is entered anew.
+    PackedBox box;  ///< When it was entered; a triangle that changes is entered anew.
     std::uint32_t triangle;
   };
 
@@ -33,17 +34,18 @@ class Surroundings {
   /// have changed since they were entered or are gone.
   template <typename Visit>
   void for_each_near(const Eigen::AlignedBox3f& box, Visit&& visit) const {
+    const BoxQuery query(box);
     for (std::size_t level = 0; level < kLevels; ++level) {
       if (!level_in_use_[level]) continue;
       // A triangle reaches from its cell into the next at most.
       const Cell first = cell_of(box.min(), level), last = cell_of(box.max(), level);
       if (has_more_cells_than_entries(first, last)) {
-        for (const Entry& entry : first_entries_) visit_entry(entry, box, visit);
-        for (const LaterEntry& later : later_entries_) visit_entry(later.entry, box, visit);
+        for (const Entry& entry : first_entries_) visit_entry(entry, query, visit);
+        for (const LaterEntry& later : later_entries_) visit_entry(later.entry, query, visit);
         return;
       }
       for_each_row({first[0] - 1, first[1] - 1, first[2] - 1}, last, level,
-                   [&](std::size_t slot, std::size_t length) { visit_slots(slot, length, box, visit); });
+                   [&](std::size_t slot, std::size_t length) { visit_slots(slot, length, query, visit); });
     }
   }
 
@@ -98,20 +100,20 @@ class Surroundings {
   }
 
   template <typename Visit>
-  void visit_slots(std::size_t slot, std::size_t count, const Eigen::AlignedBox3f& box, Visit& visit) const {
+  void visit_slots(std::size_t slot, std::size_t count, const BoxQuery& query, Visit& visit) const {
     for (std::uint32_t e = slots_[slot].begin; e != slots_[slot + count].begin; ++e) {
-      visit_entry(first_entries_[e], box, visit);
+      visit_entry(first_entries_[e], query, visit);
     }
     for (std::size_t s = slot; s < slot + count; ++s) {
       for (std::uint32_t e = slots_[s].later; e != kEnd; e = later_entries_[e].next) {
-        visit_entry(later_entries_[e].entry, box, visit);
+        visit_entry(later_entries_[e].entry, query, visit);
       }
     }
   }
 
   template <typename Visit>
-  void visit_entry(const Entry& entry, const Eigen::AlignedBox3f& box, Visit& visit) const {
-    if (entry.box.intersects(box)) visit(entry);
+  void visit_entry(const Entry& entry, const BoxQuery& query, Visit& visit) const {
+    if (query.meets(entry.box)) visit(entry);
   }
 
   bool has_more_cells_than_entries(const Cell& first, const Cell& last) const;
