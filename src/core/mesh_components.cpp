@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "exact_triangles.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
+#include "particle_surface_tracker/core/vertex_components.h"
 
 namespace particle_surface_tracker {
 namespace {
@@ -59,13 +59,13 @@ std::vector<char> mark_used(std::size_t vertex_count, const std::vector<Triangle
 MeshComponents measure_components(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles,
                                   const std::vector<MeshConnectivity::VertexState>& vertex_states) {
   MeshComponents found;
-  std::size_t label_count = 0;
-  found.of_vertex = vertex_components(positions.size(), triangles, label_count);
+  VertexComponents labels = vertex_components(positions.size(), triangles);
+  found.of_vertex = std::move(labels.of_vertex);
 
   // Vertices without triangles are labelled too; they get no component.
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   const std::vector<char> is_used = mark_used(positions.size(), triangles);
-  std::vector<std::uint32_t> component_of_label(label_count, kNone);
+  std::vector<std::uint32_t> component_of_label(labels.count, kNone);
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
     if (is_used[v] == 0) continue;
     std::uint32_t& c = component_of_label[found.of_vertex[v]];

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include "exact_triangles.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/core/mesh_validation.h"
 
 namespace particle_surface_tracker {
@@ -35,9 +34,9 @@ double signed_volume(const std::vector<Vec3f>& positions, const std::vector<Tria
 }
 
 std::vector<Component> split_into_components(const TriangleMesh& mesh) {
-  std::size_t count = 0;
-  const std::vector<std::uint32_t> labels = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
-  std::vector<Component> components(count);
+  const std::shared_ptr<const VertexComponents> connected = mesh.components();
+  const std::vector<std::uint32_t>& labels = connected->of_vertex;
+  std::vector<Component> components(connected->count);
   for (std::uint32_t v = 0; v < labels.size(); ++v) {
     components[labels[v]].vertices.push_back(v);
     components[labels[v]].box.extend(mesh.positions()[v]);

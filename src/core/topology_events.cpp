@@ -5,15 +5,13 @@
 #include <set>
 #include <unordered_map>
 
-#include "particle_surface_tracker/core/mesh_measures.h"
-
 namespace particle_surface_tracker {
 namespace {
 
 /// A mesh with the components of its vertices.
 struct Pieces {
   explicit Pieces(const IdentifiedMesh& whole)
-      : mesh(whole), of_vertex(vertex_components(whole.ids.size(), whole.triangles, count)) {
+      : mesh(whole), count(whole.components.count), of_vertex(whole.components.of_vertex) {
     sizes.resize(count);
     middles.resize(count, Vec3d::Zero());
     for (std::size_t v = 0; v < of_vertex.size(); ++v) {
@@ -41,8 +39,8 @@ struct Pieces {
   }
 
   IdentifiedMesh mesh;
-  std::size_t count = 0;
-  std::vector<std::uint32_t> of_vertex;
+  std::size_t count;
+  const std::vector<std::uint32_t>& of_vertex;
   std::vector<std::size_t> sizes;
   std::vector<Vec3d> middles;
 };

@@ -63,6 +63,13 @@ void TriangleMesh::set_triangles(std::vector<Triangle> triangles) {
   check_indices(triangles, positions_.size());
   triangles_ = std::move(triangles);
   connectivity_ = new_connectivity();
+  components_.reset();
+}
+
+std::shared_ptr<const VertexComponents> TriangleMesh::components() const {
+  if (!components_)
+    components_ = std::make_shared<const VertexComponents>(vertex_components(vertex_count(), triangles_));
+  return components_;
 }
 
 void TriangleMesh::reserve_ids(std::uint32_t next_id) {
@@ -76,6 +83,7 @@ std::uint32_t TriangleMesh::append_vertex(const Vec3f& position, const VertexBle
   attributes_.append_blend(blend);
   positions_.push_back(position);
   ids_.push_back(next_id_++);
+  components_.reset();
   return static_cast<std::uint32_t>(positions_.size() - 1);
 }
 
@@ -100,6 +108,7 @@ void TriangleMesh::remove_unused_vertices() {
     for (std::uint32_t& vertex : triangle) vertex = new_index[vertex];
   }
   connectivity_ = new_connectivity();
+  components_.reset();
 }
 
 }  // namespace particle_surface_tracker

@@ -43,10 +43,14 @@ FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uin
   if (started()) tracker_->record_topology_cells(records_cells_);
   const bool is_first = !started();
   VertexPlaces places;
-  if (!is_first) places = {tracker_->mesh().ids(), tracker_->mesh().positions()};
+  std::shared_ptr<const VertexComponents> components;
+  if (!is_first) {
+    places = {tracker_->mesh().ids(), tracker_->mesh().positions()};
+    components = tracker_->mesh().components();
+  }
   FrameReport report = is_first ? start(prepared.particles, frame_index) : advance(std::move(prepared), frame_index);
   events_.clear();
-  if (!is_first) find_events(places, report);
+  if (!is_first) find_events(places, *components, report);
   *before_ = std::move(places);
   seconds_ = is_first ? 0.0 : 1e-9 * static_cast<double>(stamp_ns - to_nanoseconds(header_.stamp));
   header_ = cloud.header;
@@ -75,13 +79,13 @@ FrameReport FrameHandler::advance(PreparedFrame prepared, std::uint64_t frame_in
   return report;
 }
 
-void FrameHandler::find_events(const VertexPlaces& before, FrameReport& report) {
+void FrameHandler::find_events(const VertexPlaces& before, const VertexComponents& components, FrameReport& report) {
   FrameReport::Topology& topology = report.topology;
   if (topology.remeshed_cells + topology.removed_components == 0) return;
   const TriangleMesh& mesh = tracker_->mesh();
-  events_ =
-      find_topology_events({before.ids, before.positions, triangles_}, {mesh.ids(), mesh.positions(), mesh.triangles()},
-                           kReachOfMerges * tracker_->parameters().particle_spacing);
+  events_ = find_topology_events({before.ids, before.positions, components},
+                                 {mesh.ids(), mesh.positions(), *mesh.components()},
+                                 kReachOfMerges * tracker_->parameters().particle_spacing);
   for (const TopologyEvent& event : events_) {
     ++(event.kind == TopologyEvent::Kind::kSplit   ? topology.splits
        : event.kind == TopologyEvent::Kind::kMerge ? topology.merges

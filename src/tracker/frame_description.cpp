@@ -20,7 +20,7 @@ constexpr std::size_t kFewestReplaced = 100;
 
 void describe_frame(FrameReport& report, const TrackedFrame& tracked, const ImplicitSurface* surface,
                     const ParticleFrame& frame) {
-  const MeshMeasures mesh = measure_mesh(tracked.mesh.positions(), tracked.mesh.triangles());
+  const MeshMeasures mesh = measure_mesh(tracked.mesh);
   report.stamp_ns = frame.stamp_ns;
   report.particles = frame.size();
   report.vertices = tracked.mesh.vertex_count();
@@ -32,7 +32,7 @@ void describe_frame(FrameReport& report, const TrackedFrame& tracked, const Impl
   report.smallest_angle = mesh.smallest_angle;
   if (surface != nullptr && !frame.empty()) {
     const SurfaceTriangulation& isosurface = surface->triangulation;
-    report.implicit_volume = measure_mesh(isosurface.vertices, isosurface.triangles).volume;
+    report.implicit_volume = signed_volume(isosurface.vertices, isosurface.triangles);
   }
   for (const float delta : tracked.mesh.delta()) {
     report.max_abs_delta = std::max(report.max_abs_delta, std::abs(static_cast<double>(delta)));

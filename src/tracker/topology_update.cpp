@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fresh_delta.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
 #include "particle_surface_tracker/stages/component_disagreement.h"
 #include "particle_surface_tracker/stages/detail_conflict.h"
 #include "particle_surface_tracker/stages/disagreement.h"
@@ -71,9 +70,9 @@ struct FreshIds {
 
 /// Marks the vertices of components that have a vertex of the first mesh.
 std::vector<char> mark_detailed(const TriangleMesh& mesh, std::uint32_t original_vertices) {
-  std::size_t count = 0;
-  const std::vector<std::uint32_t> component = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
-  std::vector<char> is_detailed(count, 0);
+  const std::shared_ptr<const VertexComponents> components = mesh.components();
+  const std::vector<std::uint32_t>& component = components->of_vertex;
+  std::vector<char> is_detailed(components->count, 0);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.ids()[v] < original_vertices) is_detailed[component[v]] = 1;
   }

@@ -27,12 +27,16 @@ class Pieces {
     return *this;
   }
 
-  IdentifiedMesh mesh() const { return {ids_, positions_, triangles_}; }
+  IdentifiedMesh mesh() const {
+    components_ = vertex_components(ids_.size(), triangles_);
+    return {ids_, positions_, components_};
+  }
 
  private:
   std::vector<std::uint32_t> ids_;
   std::vector<Vec3f> positions_;
   std::vector<Triangle> triangles_;
+  mutable VertexComponents components_;
 };
 
 constexpr double kReach = 0.5;

@@ -78,6 +78,23 @@ TEST(TriangleMesh, ConnectivityIsTheSameOnlyWhereTheTrianglesAre) {
   EXPECT_NE(TriangleMesh(mesh.positions(), mesh.triangles()).connectivity(), mesh.connectivity());
 }
 
+TEST(TriangleMesh, KeepsItsComponentsWhileTheTrianglesStay) {
+  TriangleMesh mesh({Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(5, 5, 5)}, {{0, 1, 2}});
+  const auto components = mesh.components();
+  EXPECT_EQ(components->of_vertex, (std::vector<std::uint32_t>{0, 0, 0, 1}));
+  EXPECT_EQ(components->count, 2U);
+  mesh.positions()[0] = Vec3f(9, 9, 9);
+  EXPECT_EQ(mesh.components(), components);
+  EXPECT_EQ(TriangleMesh(mesh).components(), components);
+  mesh.append_vertex(Vec3f(0, 0, 1), {{0, 1.0}});
+  EXPECT_EQ(mesh.components()->count, 3U);
+  mesh.remove_unused_vertices();
+  EXPECT_EQ(mesh.components()->count, 1U);
+  mesh.set_triangles({});
+  EXPECT_EQ(mesh.components()->count, 3U);
+  EXPECT_EQ(components->count, 2U);
+}
+
 TEST(VertexAttributes, LateAttributesAndLateVerticesGetTheInitialValue) {
   VertexAttributes attributes;
   attributes.add("first", 1, {7.0f});

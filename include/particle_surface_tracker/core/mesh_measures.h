@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "particle_surface_tracker/core/triangle_mesh.h"
 #include "particle_surface_tracker/core/types.h"
 
 namespace particle_surface_tracker {
@@ -22,9 +23,10 @@ struct MeshMeasures {
 /// Measures a mesh whose every vertex is used by a triangle.
 MeshMeasures measure_mesh(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles);
 
-/// The connected component of each vertex, numbered in the order of their lowest vertex.
-/// \param components receives their number.
-std::vector<std::uint32_t> vertex_components(std::size_t vertex_count, const std::vector<Triangle>& triangles,
-                                             std::size_t& components);
+/// As above, with the components that the mesh keeps.
+MeshMeasures measure_mesh(const TriangleMesh& mesh);
+
+/// The volume alone, the same bits [m³].
+double signed_volume(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles);
 
 }  // namespace particle_surface_tracker

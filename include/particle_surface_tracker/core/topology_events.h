@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "particle_surface_tracker/core/types.h"
+#include "particle_surface_tracker/core/vertex_components.h"
 
 namespace particle_surface_tracker {
 
@@ -18,7 +19,7 @@ struct TopologyEvent {
 struct IdentifiedMesh {
   const std::vector<std::uint32_t>& ids;  ///< One for each vertex, none twice.
   const std::vector<Vec3f>& positions;    ///< [m]
-  const std::vector<Triangle>& triangles;
+  const VertexComponents& components;
 };
 
 /// Compares the components of two meshes of one run by the ids of their vertices. Of the pieces that one component

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "particle_surface_tracker/core/types.h"
 #include "particle_surface_tracker/core/vertex_attributes.h"
+#include "particle_surface_tracker/core/vertex_components.h"
 
 namespace particle_surface_tracker {
 
@@ -37,6 +39,10 @@ class TriangleMesh {
   /// A number that changes whenever the triangles do, never 0: meshes with the same one have the same triangles. A copy
   /// keeps it.
   std::uint64_t connectivity() const { return connectivity_; }
+
+  /// The connected components of the vertices: worked out when they are first asked for and kept while the triangles
+  /// stay. Not to be asked for by several threads at a time.
+  std::shared_ptr<const VertexComponents> components() const;
 
   /// Replaces all triangles.
   /// \throw MeshError if one names a vertex that is not there; the mesh is unchanged then.
@@ -75,6 +81,7 @@ class TriangleMesh {
   std::vector<Vec3f> positions_;
   std::vector<Triangle> triangles_;
   std::uint64_t connectivity_;
+  mutable std::shared_ptr<const VertexComponents> components_;  // null: not worked out
   std::vector<std::uint32_t> ids_;
   std::uint32_t next_id_ = 0;
   VertexAttributes attributes_;

@@ -108,7 +108,7 @@ class FrameHandler {
   PreparedFrame prepare(const sensor_msgs::PointCloud2& cloud);
   FrameReport advance(PreparedFrame prepared, std::uint64_t frame_index);
   // Compares the mesh with that of the frame before.
-  void find_events(const VertexPlaces& before, FrameReport& report);
+  void find_events(const VertexPlaces& before, const VertexComponents& components, FrameReport& report);
 
   FrameHandlerOptions options_;
   std::optional<Tracker> tracker_;

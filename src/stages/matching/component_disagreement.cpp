@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "component_labels.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
 #include "stages/detection/triangle_cells.h"
 #include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
@@ -42,29 +41,31 @@ class StrayPieces {
   enum class Kind : std::uint8_t { kNone, kScrap, kBody };
 
   StrayPieces(const TriangleMesh& mesh, std::uint32_t first_new_id, const Labels& labels)
-      : component_(vertex_components(mesh.vertex_count(), mesh.triangles(), count_)), kinds_(count_, Kind::kNone) {
-    if (count_ <= 1) return;
-    std::vector<std::size_t> sizes(count_, 0);
-    for (const Triangle& t : mesh.triangles()) ++sizes[component_[t[0]]];
-    std::vector<bool> has_changed(count_, false);
+      : components_(mesh.components()), kinds_(components_->count, Kind::kNone) {
+    const std::size_t count = components_->count;
+    const std::vector<std::uint32_t>& of_vertex = components_->of_vertex;
+    if (count <= 1) return;
+    std::vector<std::size_t> sizes(count, 0);
+    for (const Triangle& t : mesh.triangles()) ++sizes[of_vertex[t[0]]];
+    std::vector<bool> has_changed(count, false);
     std::map<std::pair<std::uint32_t, std::int32_t>, std::size_t> votes;
     auto entry = votes.end();
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
       // Away from all others there is only the largest.
-      const std::pair key(component_[v], std::max(labels[v], 0));
+      const std::pair key(of_vertex[v], std::max(labels[v], 0));
       // Mostly that of the vertex before.
       if (entry == votes.end() || entry->first != key) entry = votes.try_emplace(key, 0).first;
       ++entry->second;
-      if (mesh.ids()[v] >= first_new_id) has_changed[component_[v]] = true;
+      if (mesh.ids()[v] >= first_new_id) has_changed[of_vertex[v]] = true;
     }
-    std::vector<std::pair<std::size_t, std::int32_t>> choice(count_, {0, 0});
+    std::vector<std::pair<std::size_t, std::int32_t>> choice(count, {0, 0});
     for (const auto& [place, number] : votes) {
       const auto& [component, label] = place;
       if (number > choice[component].first) choice[component] = {number, label};
       auto& best = owner_[label];
       if (number > best.first) best = {number, component};
     }
-    for (std::uint32_t c = 0; c < count_; ++c) {
+    for (std::uint32_t c = 0; c < count; ++c) {
       if (!has_changed[c] || owner_[choice[c].second].second == c) continue;
       kinds_[c] = sizes[c] <= kLargestScrap ? Kind::kScrap : Kind::kBody;
     }
@@ -75,17 +76,19 @@ class StrayPieces {
   }
 
   /// Of the component that a triangle belongs to.
-  Kind kind_of(const Triangle& t) const { return kinds_[component_[t[0]]]; }
+  Kind kind_of(const Triangle& t) const { return kinds_[component_of(t)]; }
 
   /// Whether the component that a triangle belongs to is, of all of the mesh, that with most vertices at either of two
   /// components of φ = 0.
   bool holds_both(const Triangle& t, std::int32_t label, std::int32_t other) const {
-    return count_ == 1 || (owner_.at(label).second == component_[t[0]] && owner_.at(other).second == component_[t[0]]);
+    return kinds_.size() == 1 ||
+           (owner_.at(label).second == component_of(t) && owner_.at(other).second == component_of(t));
   }
 
  private:
-  std::size_t count_ = 0;
-  std::vector<std::uint32_t> component_;
+  std::uint32_t component_of(const Triangle& t) const { return components_->of_vertex[t[0]]; }
+
+  std::shared_ptr<const VertexComponents> components_;
   std::vector<Kind> kinds_;
   /// Of every component of φ = 0 that of the mesh with most vertices there, and how many.
   std::map<std::int32_t, std::pair<std::size_t, std::uint32_t>> owner_;

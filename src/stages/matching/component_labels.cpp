@@ -7,7 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "particle_surface_tracker/core/mesh_measures.h"
+#include "particle_surface_tracker/core/vertex_components.h"
 #include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
 
@@ -33,8 +33,7 @@ struct NumberedComponents {
 };
 
 NumberedComponents number_components(const SurfaceTriangulation& surface) {
-  std::size_t count = 0;
-  const std::vector<std::uint32_t> of_vertex = vertex_components(surface.vertices.size(), surface.triangles, count);
+  const auto [of_vertex, count] = vertex_components(surface.vertices.size(), surface.triangles);
   std::vector<std::size_t> sizes(count, 0);
   for (const Triangle& t : surface.triangles) ++sizes[of_vertex[t[0]]];
   const auto largest = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "particle_surface_tracker/core/mesh_measures.h"
 #include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
 
@@ -64,8 +63,9 @@ bool may_enclose(const std::vector<Component>& components, std::uint32_t number)
 
 std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_id, const std::vector<Vec3f>& particles,
                                     double r) {
-  std::size_t count = 0;
-  const std::vector<std::uint32_t> component_of = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
+  const std::shared_ptr<const VertexComponents> connected = mesh.components();
+  const std::vector<std::uint32_t>& component_of = connected->of_vertex;
+  const std::size_t count = connected->count;
   if (count <= 1) return 0;
   const std::vector<Component> components = describe_components(mesh, component_of, count, first_new_id);
   std::vector<std::uint32_t> crumbs, specks;

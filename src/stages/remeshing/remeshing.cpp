@@ -15,7 +15,6 @@
 #include "lattice_parts.h"
 #include "mesh_cutting.h"
 #include "particle_surface_tracker/core/error.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
 #include "patch.h"
 #include "patch_places.h"
 #include "patched_connectivity.h"
@@ -51,7 +50,7 @@ class Remesher {
         growth_(marked_, tracer_) {}
 
   RemeshingReport run() {
-    small_ = find_small_components(cuts_, request_.is_liquid);
+    small_ = find_small_components(cuts_, *mesh_.components(), request_.is_liquid);
     report_.kept_components = small_.kept_count;
     report_.removed_components = small_.removed_count;
     mark_initial_cells();
@@ -213,9 +212,9 @@ class Remesher {
   /// Marks the cells of all components of the mesh that are in marked cells, or of all there are.
   void mark_components(bool all) {
     const std::vector<Triangle>& triangles = lattice_.triangles();
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> component = vertex_components(mesh_.vertex_count(), triangles, count);
-    std::vector<char> is_affected(count, all ? 1 : 0);
+    const std::shared_ptr<const VertexComponents> components = mesh_.components();
+    const std::vector<std::uint32_t>& component = components->of_vertex;
+    std::vector<char> is_affected(components->count, all ? 1 : 0);
     for (const Coord& cell : marked_.cells()) {
       for (const std::uint32_t t : lattice_.triangles_in_cell(cell)) is_affected[component[triangles[t][0]]] = 1;
     }

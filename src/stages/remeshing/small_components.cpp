@@ -7,7 +7,6 @@
 
 #include "cell_set.h"
 #include "lattice_parts.h"
-#include "particle_surface_tracker/core/mesh_measures.h"
 
 namespace particle_surface_tracker::remeshing {
 
@@ -66,12 +65,12 @@ bool SmallComponents::contain(std::uint32_t triangle) const {
          std::binary_search(removed.begin(), removed.end(), triangle);
 }
 
-SmallComponents find_small_components(TriangleCuts& cuts, const IsLiquid& is_liquid) {
+SmallComponents find_small_components(TriangleCuts& cuts, const VertexComponents& components,
+                                      const IsLiquid& is_liquid) {
   SmallComponents result;
   const std::vector<Triangle>& triangles = cuts.lattice().triangles();
-  std::size_t count = 0;
-  const std::vector<std::uint32_t> component = vertex_components(cuts.lattice().positions().size(), triangles, count);
-  std::vector<char> crosses(count, 0);
+  const std::vector<std::uint32_t>& component = components.of_vertex;
+  std::vector<char> crosses(components.count, 0);
   for (const EdgeCrossing& crossing : cuts.lattice().crossings()) {
     crosses[component[triangles[crossing.triangle][0]]] = 1;
   }

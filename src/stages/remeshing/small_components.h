@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "particle_surface_tracker/core/vertex_components.h"
 #include "triangle_cuts.h"
 
 namespace particle_surface_tracker::remeshing {
@@ -22,7 +23,9 @@ struct SmallComponents {
 
 /// Finds them. A drop stays where the mesh does not wind around any of the nodes around it and one of these is in
 /// liquid; a bubble where the mesh winds once around all of them and one is not in liquid.
+/// \param components of the mesh.
 /// \param is_liquid true where φ < 0 at a node; may be empty: nothing speaks for liquid.
-SmallComponents find_small_components(TriangleCuts& cuts, const std::function<bool(const openvdb::Coord&)>& is_liquid);
+SmallComponents find_small_components(TriangleCuts& cuts, const VertexComponents& components,
+                                      const std::function<bool(const openvdb::Coord&)>& is_liquid);
 
 }  // namespace particle_surface_tracker::remeshing

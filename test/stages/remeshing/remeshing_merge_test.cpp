@@ -12,12 +12,11 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// Components of positive volume; the others are air inside them.
 std::size_t count_bodies(const TriangleMesh& mesh) {
-  std::size_t count = 0;
-  const auto component = vertex_components(mesh.vertex_count(), mesh.triangles(), count);
+  const auto [component, count] = *mesh.components();
   std::vector<std::vector<Triangle>> parts(count);
   for (const Triangle& triangle : mesh.triangles()) parts[component[triangle[0]]].push_back(triangle);
   return static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), [&](const std::vector<Triangle>& part) {
-    return measure_mesh(mesh.positions(), part).volume > 0.0;
+    return signed_volume(mesh.positions(), part) > 0.0;
   }));
 }
 

@@ -116,8 +116,7 @@ void expect_triangles_kept_elsewhere(const TortureMesh& torture, const Result& r
   for (const Triangle& t : result.mesh.triangles()) {
     kept.insert({ids[t[0]], ids[t[1]], ids[t[2]]});
   }
-  std::size_t count = 0;
-  const auto component = vertex_components(torture.mesh.vertex_count(), torture.mesh.triangles(), count);
+  const auto [component, count] = *torture.mesh.components();
   std::vector<char> lives(count, 0);
   for (const std::uint32_t id : ids) {
     if (id < torture.mesh.vertex_count()) lives[component[id]] = 1;
