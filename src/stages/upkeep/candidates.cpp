@@ -32,8 +32,7 @@ bool still_ails(const SurfaceView& surface, const Candidate& candidate, const To
     const double sine = sine_of_smallest_angle(corners);
     return -sine == candidate.urgency && tolerances.is_sliver(vertices, sine) && surface.shortest_edge(triangle) == h;
   }
-  // Edges are named by the lower of their half-edges.
-  if (surface.twins[h] < h) return false;
+  if (!surface.is_name_of_edge(h)) return false;
   if (candidate.ailment == Ailment::kFoldedEdge) {
     const Vec3d normal = area_normal(corners), beyond = area_normal(surface.corners(surface.twins[h] / 3));
     return tolerances.is_folded(a, b, normal, beyond) && fold_between(normal, beyond) == candidate.urgency;

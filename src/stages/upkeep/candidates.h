@@ -32,6 +32,8 @@ struct SurfaceView {
   const std::vector<std::uint32_t>& twins;
 
   Corners corners(std::uint32_t triangle) const { return place_corners(positions, triangles[triangle]); }
+  /// An edge is named by the lower of its half-edges.
+  bool is_name_of_edge(std::uint32_t half_edge) const { return half_edge < twins[half_edge]; }
   std::uint32_t shortest_edge(std::uint32_t triangle) const;
   std::uint32_t longest_edge(std::uint32_t triangle) const;
 };

@@ -1,7 +1,7 @@
 #include "particle_surface_tracker/stages/particle_cover.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <limits>
 
 #include <openvdb/math/Proximity.h>
@@ -57,13 +57,17 @@ class ParticleCover {
     const ClosestPlace closest = find_closest(particle);
     const double distance = closest.offset.norm();
     if (distance <= kCovered * r_ || distance > kFarthest * r_) return;
-    first_that_may_move_ = distance > kFarthestDetail * r_ ? first_new_id_ : 0;
     const Triangle& corners = mesh_.triangles()[closest.triangle];
+    std::vector<std::uint32_t> moving;
     double weight = 0.0;
-    for (int k = 0; k < 3; ++k) weight += may_move(corners[k]) ? closest.weights[k] : 0.0;
+    for (int k = 0; k < 3; ++k) {
+      if (mesh_.ids()[corners[k]] < first_new_id_ && distance > kFarthestDetail * r_) continue;
+      moving.push_back(corners[k]);
+      weight += closest.weights[k];
+    }
     if (weight < kLeastWeight) return;
     const Vec3d move = closest.offset * ((distance - kCovered * r_) / (distance * weight));
-    move_corners(corners, move.cast<float>());
+    move_vertices(moving, move.cast<float>());
   }
 
   std::vector<std::uint32_t> take_moved() {
@@ -73,8 +77,6 @@ class ParticleCover {
   }
 
  private:
-  bool may_move(std::uint32_t vertex) const { return mesh_.ids()[vertex] >= first_that_may_move_; }
-
   Corners corners_of(std::uint32_t triangle) const {
     return place_corners(mesh_.positions(), mesh_.triangles()[triangle]);
   }
@@ -97,31 +99,28 @@ class ParticleCover {
     return closest;
   }
 
-  /// Moves the corners of a triangle that may move, unless that would fold or cross something.
-  void move_corners(const Triangle& corners, const Vec3f& move) {
+  /// Moves vertices unless that would fold or cross something.
+  void move_vertices(const std::vector<std::uint32_t>& vertices, const Vec3f& move) {
     std::vector<std::uint32_t> around;
     for (const std::uint32_t t : near_) {
       const Triangle& other = mesh_.triangles()[t];
-      const bool changes = std::any_of(other.begin(), other.end(), [&](std::uint32_t v) {
-        return may_move(v) && std::find(corners.begin(), corners.end(), v) != corners.end();
-      });
-      if (changes) around.push_back(t);
+      if (std::find_first_of(other.begin(), other.end(), vertices.begin(), vertices.end()) != other.end())
+        around.push_back(t);
     }
     std::vector<Vec3d> normals;
     normals.reserve(around.size());
     for (const std::uint32_t t : around) normals.push_back(area_normal(corners_of(t)));
-    std::array<Vec3f, 3> before;
-    for (std::size_t k = 0; k < 3; ++k) {
-      before[k] = mesh_.positions()[corners[k]];
-      if (may_move(corners[k])) mesh_.positions()[corners[k]] += move;
+    std::vector<Vec3f> before;
+    for (const std::uint32_t v : vertices) {
+      before.push_back(mesh_.positions()[v]);
+      mesh_.positions()[v] += move;
     }
     if (is_sound(around, normals)) {
-      for (const std::uint32_t v : corners) {
-        if (mesh_.ids()[v] >= first_new_id_) moved_.push_back(v);
-      }
+      std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(moved_),
+                   [&](std::uint32_t v) { return mesh_.ids()[v] >= first_new_id_; });
       return;
     }
-    for (std::size_t k = 0; k < 3; ++k) mesh_.positions()[corners[k]] = before[k];
+    for (std::size_t n = 0; n < vertices.size(); ++n) mesh_.positions()[vertices[n]] = before[n];
   }
 
   bool is_sound(const std::vector<std::uint32_t>& changed, const std::vector<Vec3d>& normals_before) const {
@@ -146,10 +145,9 @@ class ParticleCover {
 
   TriangleMesh& mesh_;
   std::uint32_t first_new_id_;
-  std::uint32_t first_that_may_move_ = 0;
   double r_;
-  std::vector<std::uint32_t> near_;  // triangles
-  std::vector<std::uint32_t> moved_;
+  std::vector<std::uint32_t> near_;   // triangles
+  std::vector<std::uint32_t> moved_;  // without those of the first mesh, which keep δ
 };
 
 }  // namespace

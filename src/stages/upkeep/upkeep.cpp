@@ -42,9 +42,9 @@ bool find_suspects(const TriangleMesh& mesh, const Tolerances& tolerances, Upkee
   const SurfaceView surface{mesh.positions(), mesh.triangles(), memory.twins.of_half_edges};
   for_each_block(mesh, [&](std::uint32_t block, std::uint32_t first, std::uint32_t last) {
     std::vector<std::uint32_t>& suspects = memory.suspects[block];
-    const auto is_lower = [&](std::uint32_t h) { return h < surface.twins[h]; };
+    const auto is_asked = [&](std::uint32_t h) { return surface.is_name_of_edge(h); };
     for (std::uint32_t t = first; t < last; ++t) {
-      for_each_ailment(surface, t, tolerances, is_lower, [&](Ailment, double, std::uint32_t) {
+      for_each_ailment(surface, t, tolerances, is_asked, [&](Ailment, double, std::uint32_t) {
         if (suspects.empty() || suspects.back() != t) suspects.push_back(t);
       });
     }
@@ -69,8 +69,9 @@ class Upkeep {
     // Until the mesh has the triangles that they belong to.
     twins_.connectivity = 0;
     for (const auto& block : suspects_) {
-      for (const std::uint32_t t : block)
-        enqueue_triangle(t, [&](std::uint32_t h) { return h < twins_.of_half_edges[h]; });
+      for (const std::uint32_t t : block) {
+        enqueue_triangle(t, [&](std::uint32_t h) { return view().is_name_of_edge(h); });
+      }
     }
     work_through_queue();
     for (int pass = 1; pass < kMaxPasses && enqueue_what_may_have_become_possible(); ++pass) work_through_queue();
@@ -95,7 +96,6 @@ class Upkeep {
 
   SurfaceView view() const { return {surface_.mesh().positions(), surface_.triangles(), surface_.twins()}; }
 
-  /// Edges are named by the lower of their half-edges.
   Candidate candidate(Ailment ailment, double urgency, std::uint32_t half_edge) const {
     const auto [low, high] = std::minmax({surface_.start(half_edge), surface_.end(half_edge)});
     if (ailment != Ailment::kSliver) half_edge = std::min(half_edge, surface_.twin(half_edge));
