@@ -217,7 +217,8 @@ TEST(MeshLattice, TrianglesOfCellsAreTheSameForSeveralThreads) {
 }
 
 TEST(MeshLattice, NoMeshIsOutsideEverywhere) {
-  const MeshLattice lattice = lattice_of(TriangleMesh(), 1.0);
+  const TriangleMesh nothing;
+  const MeshLattice lattice = lattice_of(nothing, 1.0);
   EXPECT_TRUE(lattice.crossings().empty());
   EXPECT_TRUE(lattice.cells().empty());
   EXPECT_EQ(lattice.winding_number(Coord(1, 2, 3)), 0);
