@@ -66,7 +66,7 @@ RunProgress run_progress_from(const std::string& bytes) {
 RunProgress require_this_run(const Checkpoint& checkpoint, const OfflineOptions& options, ParticleBag& bag) {
   const auto section = checkpoint.sections.find(run_section);
   if (section == checkpoint.sections.end()) throw InputError("it is no checkpoint of track_bag, but of a node");
-  const RunProgress progress = run_progress_from(section->second);
+  RunProgress progress = run_progress_from(section->second);
   if (progress.first != options.first) {
     throw ParameterError(
         fmt::format("--first {}: the run of the checkpoint began with frame {}", options.first, progress.first));
