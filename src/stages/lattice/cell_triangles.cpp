@@ -52,44 +52,26 @@ void add_box(const openvdb::CoordBBox& box, LeafWords& words) {
   for (std::int32_t x = box.min().x(); x <= box.max().x(); ++x) words[x] |= slice;
 }
 
-/// Where the triangles of a block are, with leaves numbered in the order of their first occurrence.
+/// Where the triangles of a block are.
 struct Meetings {
   struct Meeting {
     std::uint32_t triangle;
-    std::uint32_t leaf;
+    std::uint32_t leaf;  ///< Its number in `in_use`.
     std::uint32_t place;
   };
 
   void append_box(std::uint32_t triangle, const Coord& leaf, const openvdb::CoordBBox& box) {
-    all.push_back({triangle, number_of(leaf), kWholeBox});
-    add_box(part_in(leaf, box), in_use[last_]);
+    all.push_back({triangle, in_use.number_of(leaf), kWholeBox});
+    add_box(part_in(leaf, box), in_use.words_at(leaf));
   }
 
   void append_cell(std::uint32_t triangle, const Coord& cell) {
-    const std::uint32_t place = place_in_leaf(cell);
-    all.push_back({triangle, number_of(leaf_of(cell)), place});
-    in_use[last_][place / 64] |= std::uint64_t{1} << (place % 64);
+    all.push_back({triangle, in_use.number_of(leaf_of(cell)), place_in_leaf(cell)});
+    in_use.insert(cell);
   }
 
-  std::vector<Coord> leaves;
-  std::vector<LeafWords> in_use;  ///< Of each leaf the cells with triangles.
+  NodeMasks in_use{16};  ///< Cells with triangles.
   std::vector<Meeting> all;
-
- private:
-  std::uint32_t number_of(const Coord& leaf) {
-    if (!leaves.empty() && leaf == leaves[last_]) return last_;
-    last_ = index_.find(leaf);
-    if (last_ == LeafIndex::none) {
-      last_ = static_cast<std::uint32_t>(leaves.size());
-      index_.insert(leaf, last_);
-      leaves.push_back(leaf);
-      in_use.emplace_back();
-    }
-    return last_;
-  }
-
-  LeafIndex index_{16};
-  std::uint32_t last_ = 0;
 };
 
 class LeafFinder {
@@ -145,7 +127,7 @@ class LeafFinder {
 
 }  // namespace
 
-CellTriangles::CellTriangles(const LatticeMesh& mesh) : mesh_(mesh), index_(mesh.triangles->size() / 32) {
+CellTriangles::CellTriangles(const LatticeMesh& mesh) : mesh_(mesh), in_use_(mesh.triangles->size() / 32) {
   std::vector<Meetings> found(triangle_block_count(mesh));
   for_triangle_blocks(mesh, [&](std::size_t block, std::uint32_t begin, std::uint32_t end) {
     found[block].all.reserve(2 * kTrianglesPerBlock);
@@ -155,19 +137,11 @@ CellTriangles::CellTriangles(const LatticeMesh& mesh) : mesh_(mesh), index_(mesh
   begin_.assign(2, 0);
   for (Meetings& meetings : found) {
     std::vector<std::uint32_t> numbers;
-    for (std::size_t n = 0; n < meetings.leaves.size(); ++n) {
-      const Coord& leaf = meetings.leaves[n];
-      std::uint32_t number = index_.find(leaf);
-      if (number == LeafIndex::none) {
-        number = static_cast<std::uint32_t>(leaves_.size());
-        index_.insert(leaf, number);
-        leaves_.push_back(leaf);
-        in_use_.emplace_back();
-        begin_.push_back(0);
-      }
-      add_words(meetings.in_use[n], in_use_[number]);
-      numbers.push_back(number);
+    for (const NodeMasks::Leaf& leaf : meetings.in_use.leaves()) {
+      add_words(leaf.words, in_use_.words_at(leaf.origin));
+      numbers.push_back(in_use_.number_of(leaf.origin));
     }
+    begin_.resize(in_use_.leaves().size() + 2, 0);
     for (Meetings::Meeting& meeting : meetings.all) {
       meeting.leaf = numbers[meeting.leaf];
       ++begin_[std::size_t{meeting.leaf} + 2];
@@ -178,7 +152,7 @@ CellTriangles::CellTriangles(const LatticeMesh& mesh) : mesh_(mesh), index_(mesh
   for (const Meetings& meetings : found) {
     for (const Meetings::Meeting& m : meetings.all) entries_[begin_[std::size_t{m.leaf} + 1]++] = {m.triangle, m.place};
   }
-  sorted_ = std::make_unique<SortedLeaf[]>(leaves_.size());
+  sorted_ = std::make_unique<SortedLeaf[]>(in_use_.leaves().size());
 }
 
 template <typename Visit>
@@ -187,7 +161,7 @@ void CellTriangles::for_each_place(std::uint32_t leaf, const Entry& entry, Visit
     visit(entry.place);
     return;
   }
-  const openvdb::CoordBBox box = part_in(leaves_[leaf], box_of(mesh_, entry.triangle));
+  const openvdb::CoordBBox box = part_in(in_use_.leaves()[leaf].origin, box_of(mesh_, entry.triangle));
   for (std::int32_t x = box.min().x(); x <= box.max().x(); ++x) {
     for (std::int32_t y = box.min().y(); y <= box.max().y(); ++y) {
       for (std::int32_t z = box.min().z(); z <= box.max().z(); ++z) {
@@ -226,7 +200,7 @@ const CellTriangles::SortedLeaf& CellTriangles::sorted(std::uint32_t leaf) const
 }
 
 ArrayRange<std::uint32_t> CellTriangles::in_cell(const Coord& cell) const {
-  const std::uint32_t leaf = index_.find(leaf_of(cell));
+  const std::uint32_t leaf = in_use_.find(leaf_of(cell));
   if (leaf == LeafIndex::none) return {};
   const std::uint32_t* data = sorted(leaf).data.data();
   const std::uint32_t place = place_in_leaf(cell);
@@ -235,12 +209,12 @@ ArrayRange<std::uint32_t> CellTriangles::in_cell(const Coord& cell) const {
 
 std::vector<Coord> CellTriangles::cells_outside(const NodeMasks& set) const {
   std::vector<Coord> cells;
-  for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-    LeafWords words = in_use_[leaf];
-    const std::uint32_t known = set.find(leaves_[leaf]);
+  for (const NodeMasks::Leaf& leaf : in_use_.leaves()) {
+    const std::uint32_t known = set.find(leaf.origin);
     for (int x = 0; x < kWidth; ++x) {
-      if (known != LeafIndex::none) words[x] &= ~set.leaves()[known].words[x];
-      for_each_bit(words[x], [&](int bit) { cells.push_back(leaves_[leaf].offsetBy(x, bit >> 3, bit & 7)); });
+      const std::uint64_t taken = known == LeafIndex::none ? 0 : set.leaves()[known].words[x];
+      for_each_bit(leaf.words[x] & ~taken,
+                   [&](int bit) { cells.push_back(leaf.origin.offsetBy(x, bit >> 3, bit & 7)); });
     }
   }
   return cells;

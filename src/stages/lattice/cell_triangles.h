@@ -12,7 +12,6 @@
 #include "particle_surface_tracker/stages/mesh_lattice.h"
 
 #include "lattice_mesh.h"
-#include "stages/nodes/leaf_index.h"
 #include "stages/nodes/node_masks.h"
 
 namespace particle_surface_tracker {
@@ -51,10 +50,8 @@ class CellTriangles {
   void for_each_place(std::uint32_t leaf, const Entry& entry, Visit&& visit) const;
 
   const LatticeMesh& mesh_;
-  LeafIndex index_;
-  std::vector<openvdb::Coord> leaves_;  // lowest cell of each
-  std::vector<LeafWords> in_use_;       // per leaf: cells with triangles
-  std::vector<std::size_t> begin_;      // per leaf: of its entries; and where the last ones end
+  NodeMasks in_use_;                // cells with triangles
+  std::vector<std::size_t> begin_;  // per leaf: of its entries; and where the last ones end
   std::vector<Entry> entries_;
   std::unique_ptr<SortedLeaf[]> sorted_;  // per leaf
 };

@@ -32,17 +32,20 @@ class NodeMasks {
 
   bool contains(const openvdb::Coord& node) const;
 
-  /// The mask of a leaf, which is made where it is not there yet. Valid until another leaf is made.
-  LeafWords& words_at(const openvdb::Coord& origin) {
-    if (last_ != LeafIndex::none && leaves_[last_].origin == origin) return leaves_[last_].words;
+  /// Number of the leaf with that origin, which is made where it is not there yet.
+  std::uint32_t number_of(const openvdb::Coord& origin) {
+    if (last_ != LeafIndex::none && leaves_[last_].origin == origin) return last_;
     last_ = index_.find(origin);
     if (last_ == LeafIndex::none) {
       last_ = static_cast<std::uint32_t>(leaves_.size());
       leaves_.push_back({origin});
       index_.insert(origin, last_);
     }
-    return leaves_[last_].words;
+    return last_;
   }
+
+  /// The mask of a leaf, which is made where it is not there yet. Valid until another leaf is made.
+  LeafWords& words_at(const openvdb::Coord& origin) { return leaves_[number_of(origin)].words; }
 
   /// Adds to every node those up to `down` below and up to `up` above it along each axis.
   void dilate(int down, int up);
