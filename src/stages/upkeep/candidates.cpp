@@ -6,7 +6,6 @@
 namespace particle_surface_tracker {
 
 bool Candidate::operator<(const Candidate& other) const {
-  if (ailment != other.ailment) return ailment > other.ailment;
   if (urgency != other.urgency) return urgency < other.urgency;
   return std::tie(low, high, half_edge) > std::tie(other.low, other.high, other.half_edge);
 }

@@ -16,12 +16,12 @@ enum class Ailment : std::uint8_t { kLongEdge, kShortEdge, kFoldedEdge, kSliver 
 /// An edge that calls for an operation, or the shortest edge of a triangle that does.
 struct Candidate {
   Ailment ailment;
-  double urgency;           ///< Of one ailment, larger ones come first.
+  double urgency;           ///< Larger ones come first.
   std::uint32_t low, high;  ///< Vertices of the edge when this was found; they settle ties.
   std::uint32_t half_edge;
   Vec3f position = Vec3f::Zero();  ///< Where a long edge is to be split [m].
 
-  /// Whether the other comes first.
+  /// Whether another one of the same ailment is more urgent.
   bool operator<(const Candidate& other) const;
 };
 

@@ -1,12 +1,12 @@
 #include "particle_surface_tracker/stages/upkeep.h"
 
 #include <algorithm>
-#include <queue>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
 #include "birth_record.h"
+#include "candidate_queue.h"
 #include "candidates.h"
 #include "editable_surface.h"
 #include "half_edges.h"
@@ -19,6 +19,10 @@ namespace {
 
 /// Triangles that are looked at by one task.
 constexpr std::uint32_t kTrianglesPerBlock = 2048;
+
+/// Side of the tiles in which candidates are dealt with one after the other [cells of Γ]: that of the blocks in which
+/// operations look for other triangles.
+constexpr double kTile = 8.0;
 
 std::uint32_t block_count(const TriangleMesh& mesh) {
   return static_cast<std::uint32_t>((mesh.triangle_count() + kTrianglesPerBlock - 1) / kTrianglesPerBlock);
@@ -62,6 +66,7 @@ class Upkeep {
         tolerances_(tolerances),
         operations_(surface_, births, tolerances, parameters.dx_gamma * parameters.particle_spacing),
         suspects_(memory.suspects),
+        queue_(kTile * parameters.dx_gamma * parameters.particle_spacing),
         changed_at_(mesh.vertex_count(), 0),
         attempts_left_(kAttemptsPerTriangle * mesh.triangle_count() + kLeastAttempts) {}
 
@@ -102,13 +107,15 @@ class Upkeep {
     return {ailment, urgency, low, high, half_edge};
   }
 
+  void enqueue(const Candidate& candidate) { queue_.push(candidate, surface_.stored_position(candidate.low)); }
+
   template <typename IsAsked>
   void enqueue_triangle(std::uint32_t triangle, IsAsked&& is_asked) {
     for_each_ailment(view(), triangle, tolerances_, is_asked, [&](Ailment ailment, double urgency, std::uint32_t h) {
       if (ailment == Ailment::kLongEdge) {
         long_edges_.push_back(candidate(ailment, urgency, h));
       } else {
-        queue_.push(candidate(ailment, urgency, h));
+        enqueue(candidate(ailment, urgency, h));
       }
     });
   }
@@ -127,7 +134,7 @@ class Upkeep {
     for (Candidate& edge : long_edges_) {
       if (!is_current(edge)) continue;
       edge.position = operations_.split_position(edge.half_edge);
-      queue_.push(edge);
+      enqueue(edge);
     }
     long_edges_.clear();
   }
@@ -139,13 +146,11 @@ class Upkeep {
 
   void work_through_queue() {
     while (attempts_left_ > 0) {
-      if (!long_edges_.empty() && (queue_.empty() || queue_.top().ailment != Ailment::kLongEdge)) {
+      if (!long_edges_.empty() && (queue_.empty() || queue_.next_ailment() != Ailment::kLongEdge)) {
         begin_round_of_splits();
       }
       if (queue_.empty()) return;
-      const Candidate next = queue_.top();
-      // What was queued twice comes twice in a row.
-      while (!queue_.empty() && !(queue_.top() < next)) queue_.pop();
+      const Candidate next = queue_.take();
       if (!is_current(next)) continue;
       --attempts_left_;
       const std::size_t crossings_before = operations_.crossings();
@@ -169,7 +174,7 @@ class Upkeep {
         if (candidate.ailment == Ailment::kLongEdge) {
           long_edges_.push_back(candidate);
         } else {
-          queue_.push(candidate);
+          enqueue(candidate);
         }
       } else {
         remaining.push_back(refusal);
@@ -252,7 +257,7 @@ class Upkeep {
   const Tolerances& tolerances_;
   Operations operations_;
   const std::vector<std::vector<std::uint32_t>>& suspects_;
-  std::priority_queue<Candidate> queue_;
+  CandidateQueue queue_;
   std::vector<Candidate> long_edges_;  // of the next round
   std::vector<Refusal> refused_;
   std::vector<std::size_t> changed_at_;  // per vertex: number of the last operation that changed a triangle around it
