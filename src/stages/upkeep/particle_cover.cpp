@@ -10,6 +10,7 @@
 #include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
 #include "triangle_crossing.h"
+#include "triangle_overlap.h"
 
 namespace particle_surface_tracker {
 
@@ -24,6 +25,8 @@ constexpr double kFarthest = 1.25;
 constexpr double kFarthestDetail = 1.15;
 /// Triangles up to this many cells of r from a particle are looked at. Larger ones are none that re-meshing has made.
 constexpr int kReach = 4;
+/// Vertices around the closest triangle that come along where it cannot move alone [edges].
+constexpr int kMostRings = 2;
 /// Share of the closest place that must move for the surface there to follow.
 constexpr double kLeastWeight = 0.3;
 
@@ -35,6 +38,12 @@ struct ClosestPlace {
   std::uint32_t triangle = 0;
   Vec3d weights = Vec3d::Zero();  ///< Of the corners.
   Vec3d offset = Vec3d::Zero();   ///< From the place to the particle [m].
+};
+
+/// A triangle with corners that move.
+struct Moving {
+  std::uint32_t index;
+  Corners before;
 };
 
 class ParticleCover {
@@ -57,17 +66,21 @@ class ParticleCover {
     const ClosestPlace closest = find_closest(particle);
     const double distance = closest.offset.norm();
     if (distance <= kCovered * r_ || distance > kFarthest * r_) return;
+    const bool detail_may_move = distance <= kFarthestDetail * r_;
     const Triangle& corners = mesh_.triangles()[closest.triangle];
     std::vector<std::uint32_t> moving;
     double weight = 0.0;
     for (int k = 0; k < 3; ++k) {
-      if (mesh_.ids()[corners[k]] < first_new_id_ && distance > kFarthestDetail * r_) continue;
+      if (!may_move(corners[k], detail_may_move)) continue;
       moving.push_back(corners[k]);
       weight += closest.weights[k];
     }
     if (weight < kLeastWeight) return;
-    const Vec3d move = closest.offset * ((distance - kCovered * r_) / (distance * weight));
-    move_vertices(moving, move.cast<float>());
+    const Vec3f move = (closest.offset * ((distance - kCovered * r_) / (distance * weight))).cast<float>();
+    // Where the tip is pointed, its flanks turn unless they come along.
+    for (int rings = 0; !move_vertices(moving, move) && rings < kMostRings; ++rings) {
+      moving = with_neighbors(moving, detail_may_move);
+    }
   }
 
   std::vector<std::uint32_t> take_moved() {
@@ -99,48 +112,92 @@ class ParticleCover {
     return closest;
   }
 
-  /// Moves vertices unless that would fold or cross something.
-  void move_vertices(const std::vector<std::uint32_t>& vertices, const Vec3f& move) {
-    std::vector<std::uint32_t> around;
+  bool may_move(std::uint32_t vertex, bool detail_may_move) const {
+    return detail_may_move || mesh_.ids()[vertex] >= first_new_id_;
+  }
+
+  /// The triangles with a corner among some vertices.
+  std::vector<std::uint32_t> triangles_at(const std::vector<std::uint32_t>& vertices) const {
+    std::vector<std::uint32_t> found;
     for (const std::uint32_t t : near_) {
-      const Triangle& other = mesh_.triangles()[t];
-      if (std::find_first_of(other.begin(), other.end(), vertices.begin(), vertices.end()) != other.end())
-        around.push_back(t);
+      const Triangle& corners = mesh_.triangles()[t];
+      if (std::find_first_of(corners.begin(), corners.end(), vertices.begin(), vertices.end()) != corners.end())
+        found.push_back(t);
     }
-    std::vector<Vec3d> normals;
-    normals.reserve(around.size());
-    for (const std::uint32_t t : around) normals.push_back(area_normal(corners_of(t)));
+    return found;
+  }
+
+  /// Some vertices and those next to them that may move.
+  std::vector<std::uint32_t> with_neighbors(const std::vector<std::uint32_t>& vertices, bool detail_may_move) const {
+    std::vector<std::uint32_t> all = vertices;
+    for (const std::uint32_t t : triangles_at(vertices)) {
+      for (const std::uint32_t v : mesh_.triangles()[t]) {
+        if (may_move(v, detail_may_move)) all.push_back(v);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+  /// Moves vertices unless that would fold or cross something, or pass over it.
+  /// \return whether they have moved.
+  bool move_vertices(const std::vector<std::uint32_t>& vertices, const Vec3f& move) {
+    std::vector<Moving> around;
+    for (const std::uint32_t t : triangles_at(vertices)) around.push_back({t, corners_of(t)});
     std::vector<Vec3f> before;
     for (const std::uint32_t v : vertices) {
       before.push_back(mesh_.positions()[v]);
       mesh_.positions()[v] += move;
     }
-    if (is_sound(around, normals)) {
+    if (is_sound(around, move.cast<double>())) {
       std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(moved_),
                    [&](std::uint32_t v) { return mesh_.ids()[v] >= first_new_id_; });
-      return;
+      return true;
     }
     for (std::size_t n = 0; n < vertices.size(); ++n) mesh_.positions()[vertices[n]] = before[n];
+    return false;
   }
 
-  bool is_sound(const std::vector<std::uint32_t>& changed, const std::vector<Vec3d>& normals_before) const {
+  bool is_sound(const std::vector<Moving>& moving, const Vec3d& move) const {
     Eigen::AlignedBox3d box;
-    for (std::size_t n = 0; n < changed.size(); ++n) {
-      const Corners corners = corners_of(changed[n]);
-      if (area_normal(corners).dot(normals_before[n]) <= 0.0) return false;
+    std::vector<std::uint32_t> own;  // corners of what moves
+    for (const Moving& triangle : moving) {
+      const Corners corners = corners_of(triangle.index);
+      if (area_normal(corners).dot(area_normal(triangle.before)) <= 0.0) return false;
       for (const Vec3d& corner : corners) box.extend(corner);
+      for (const Vec3d& corner : triangle.before) box.extend(corner);
+      const Triangle& vertices = mesh_.triangles()[triangle.index];
+      own.insert(own.end(), vertices.begin(), vertices.end());
     }
+    std::sort(own.begin(), own.end());
     for (const std::uint32_t other : near_) {
+      const Triangle& vertices = mesh_.triangles()[other];
       const Corners corners = corners_of(other);
       Eigen::AlignedBox3d other_box;
       for (const Vec3d& corner : corners) other_box.extend(corner);
       if (!box.intersects(other_box)) continue;
-      const PlacedTriangle placed = place_triangle(mesh_.triangles()[other], corners);
-      for (const std::uint32_t t : changed) {
-        if (triangles_cross(place_triangle(mesh_.triangles()[t], corners_of(t)), placed)) return false;
+      const PlacedTriangle placed = place_triangle(vertices, corners);
+      for (const Moving& triangle : moving) {
+        if (triangles_cross(place_triangle(mesh_.triangles()[triangle.index], corners_of(triangle.index)), placed)) {
+          return false;
+        }
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!std::binary_search(own.begin(), own.end(), vertices[k]) && is_passed(corners[k], moving, move)) {
+          return false;
+        }
       }
     }
     return true;
+  }
+
+  /// Whether a triangle may pass over a place: what is small could be swallowed without crossing anything in the end.
+  /// Seen from the triangle it is the place that moves.
+  static bool is_passed(const Vec3d& place, const std::vector<Moving>& moving, const Vec3d& move) {
+    const Corners way = {place, place - move, place - move};
+    return std::any_of(moving.begin(), moving.end(),
+                       [&](const Moving& triangle) { return triangles_touch(way, triangle.before); });
   }
 
   TriangleMesh& mesh_;
