@@ -11,7 +11,7 @@ namespace particle_surface_tracker {
 /// shrink again. With δ as it is in the paper, a splash of three times the area carries three times the liquid in its
 /// detail, and the mesh swells against φ = 0 (docs/upkeep.md).
 ///
-/// A growth by up to 1.6 leaves every bit of δ alone, so motion that is almost rigid does not touch it.
+/// A growth by up to 2 leaves every bit of δ alone, so motion that is almost rigid does not touch it.
 /// \param mesh has just been advected.
 /// \param before the vertices' positions in the frame before [m]; the triangles are still the same.
 void thin_stretched_detail(TriangleMesh& mesh, const std::vector<Vec3f>& before);

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kAttributeName = "stretch";
 
 /// δ is left alone until the surface around a vertex has grown by this factor.
-constexpr double kToleratedGrowth = 1.6;
+constexpr double kToleratedGrowth = 2.0;
 
 /// Largest change of area in one frame that is believed; more is a vertex that jumps.
 constexpr double kLargestGrowth = 2.0;
