@@ -178,7 +178,7 @@ double update_topology(TriangleMesh& mesh, const std::vector<Vec3f>& particles, 
     }
     if (pieces.none() && uncovered.empty()) break;
   }
-  report.topology.removed_components += remove_empty_components(mesh, original_vertices, particles, r);
+  report.topology.removed_components += remove_empty_components(mesh, original_vertices, first_new_id, particles, r);
   timer.begin("untangling");
   FreshIds fresh;
   fresh.first_remeshed = first_new_id;

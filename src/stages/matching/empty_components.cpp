@@ -25,17 +25,21 @@ constexpr double kLargestSpeck = 1.0e-3;
 
 struct Component {
   std::size_t triangles = 0;
-  bool is_new = true;
+  bool has_old = false;    ///< A vertex of the first mesh.
+  bool has_fresh = false;  ///< A vertex of this frame.
   double six_volumes = 0.0;
   Vec3d origin = Vec3d::Zero();  ///< Of the volumes.
   Eigen::AlignedBox3d box;
 };
 
 std::vector<Component> describe_components(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component_of,
-                                           std::size_t count, std::uint32_t first_new_id) {
+                                           std::size_t count, std::uint32_t first_new_id,
+                                           std::uint32_t first_fresh_id) {
   std::vector<Component> components(count);
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.ids()[v] < first_new_id) components[component_of[v]].is_new = false;
+    Component& component = components[component_of[v]];
+    if (mesh.ids()[v] < first_new_id) component.has_old = true;
+    if (mesh.ids()[v] >= first_fresh_id) component.has_fresh = true;
   }
   for (const Triangle& t : mesh.triangles()) ++components[component_of[t[0]]].triangles;
   for (const Triangle& t : mesh.triangles()) {
@@ -61,18 +65,20 @@ bool may_enclose(const std::vector<Component>& components, std::uint32_t number)
 
 }  // namespace
 
-std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_id, const std::vector<Vec3f>& particles,
-                                    double r) {
+std::size_t remove_empty_components(TriangleMesh& mesh, std::uint32_t first_new_id, std::uint32_t first_fresh_id,
+                                    const std::vector<Vec3f>& particles, double r) {
   const std::shared_ptr<const VertexComponents> connected = mesh.components();
   const std::vector<std::uint32_t>& component_of = connected->of_vertex;
   const std::size_t count = connected->count;
   if (count <= 1) return 0;
-  const std::vector<Component> components = describe_components(mesh, component_of, count, first_new_id);
+  const std::vector<Component> components =
+      describe_components(mesh, component_of, count, first_new_id, first_fresh_id);
   std::vector<std::uint32_t> crumbs, specks;
   NodeMasks near;  // cells of r that are near crumbs
   for (std::uint32_t c = 0; c < count; ++c) {
     const Component& component = components[c];
-    if (!component.is_new || component.triangles > kLargestCrumb) continue;
+    if (component.has_old && !component.has_fresh) continue;
+    if (component.triangles > kLargestCrumb) continue;
     const bool is_speck = std::abs(component.six_volumes) < 6.0 * kLargestSpeck * r * r * r;
     if ((component.six_volumes <= 0.0 && !is_speck) || may_enclose(components, c)) continue;
     if (is_speck) {
