@@ -15,7 +15,7 @@ void CandidateQueue::push(const Candidate& candidate, const Vec3f& place) {
 Candidate CandidateQueue::take() {
   const auto first = tiles_.begin();
   std::priority_queue<Candidate>& candidates = first->second;
-  const Candidate next = candidates.top();
+  Candidate next = candidates.top();
   // What was pushed twice comes twice in a row.
   do {
     candidates.pop();
