@@ -26,7 +26,7 @@ std::vector<std::uint32_t> take_all(CandidateQueue& queue) {
 
 TEST(CandidateQueue, AilmentsComeFirstThenTilesThenUrgency) {
   CandidateQueue queue(kTile);
-  const Vec3f here(0.1F, 0.1F, 0.1F), also_here(0.4F, 0.4F, 0.4F), beside(0.1F, 0.6F, 0.1F), before(-0.1F, 0.9F, 0.9F);
+  const Vec3f here(0.1F, 0.1F, 0.1F), also_here(0.2F, -0.2F, 0.2F), beside(0.1F, 0.3F, 0.1F), before(-0.3F, 0.9F, 0.9F);
   queue.push(make_candidate(Ailment::kSliver, 9.0, 0), before);
   queue.push(make_candidate(Ailment::kShortEdge, 9.0, 1), beside);
   queue.push(make_candidate(Ailment::kShortEdge, 1.0, 2), here);

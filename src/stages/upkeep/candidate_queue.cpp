@@ -7,7 +7,7 @@ namespace particle_surface_tracker {
 void CandidateQueue::push(const Candidate& candidate, const Vec3f& place) {
   Tile tile{};
   if (candidate.ailment != Ailment::kLongEdge) {
-    for (int axis = 0; axis < 3; ++axis) tile[axis] = std::floor(static_cast<double>(place[axis]) / tile_);
+    for (int axis = 0; axis < 3; ++axis) tile[axis] = std::round(static_cast<double>(place[axis]) / tile_);
   }
   tiles_[{candidate.ailment, tile}].push(candidate);
 }

@@ -10,9 +10,10 @@
 namespace particle_surface_tracker {
 
 /// The order in which candidates are dealt with: ailment by ailment; of one ailment tile by tile, cubes on a lattice
-/// that is fixed in the world; in a tile the most urgent first. Only what is close together matters to each other, and
-/// operations that follow each other in space find what they look at still in the processor's caches. Long edges all
-/// belong to one tile: there are few, and split in another order they make worse triangles across the rims.
+/// that is fixed in the world, one of them with its centre at the origin; in a tile the most urgent first. Only what is
+/// close together matters to each other, and operations that follow each other in space find what they look at still in
+/// the processor's caches. Long edges all belong to one tile: there are few, and split in another order they make worse
+/// triangles across the rims.
 class CandidateQueue {
  public:
   /// \param tile side of a tile [m].
@@ -30,7 +31,7 @@ class CandidateQueue {
   Candidate take();
 
  private:
-  using Tile = std::array<double, 3>;  // whole numbers: its lowest corner [tiles]
+  using Tile = std::array<double, 3>;  // whole numbers: its centre [tiles]
 
   double tile_;
   std::map<std::pair<Ailment, Tile>, std::priority_queue<Candidate>> tiles_;  // none is empty
