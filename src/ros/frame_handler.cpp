@@ -54,8 +54,8 @@ FrameReport FrameHandler::handle(const sensor_msgs::PointCloud2& cloud, std::uin
   *before_ = std::move(places);
   seconds_ = is_first ? 0.0 : 1e-9 * static_cast<double>(stamp_ns - to_nanoseconds(header_.stamp));
   header_ = cloud.header;
-  if (triangles_ != tracker_->mesh().triangles()) {
-    triangles_ = tracker_->mesh().triangles();
+  if (connectivity_ != tracker_->mesh().connectivity()) {
+    connectivity_ = tracker_->mesh().connectivity();
     ++topology_version_;
   }
   return report;
@@ -120,7 +120,7 @@ void FrameHandler::load(const Checkpoint& checkpoint) {
   tracker.set_parameters(parameters);
 
   reset();
-  triangles_ = tracker.mesh().triangles();
+  connectivity_ = tracker.mesh().connectivity();
   tracker_.emplace(std::move(tracker));
   header_ = std::move(state.header);
   seconds_ = state.seconds;
@@ -151,8 +151,8 @@ void FrameHandler::reset() {
   tracker_.reset();
   *before_ = {};
   events_.clear();
-  // No triangles: the next mesh gets a new version, for whoever knows those of this one.
-  triangles_.clear();
+  // The next mesh gets a new version, for whoever knows the triangles of this one.
+  connectivity_ = 0;
 }
 
 std::vector<std::string> FrameHandler::set_parameters(const Parameters& parameters) {

@@ -115,7 +115,7 @@ class FrameHandler {
   std_msgs::Header header_;
   double seconds_ = 0.0;                  // Between the last frame and the one before; 0 if there is none.
   std::unique_ptr<VertexPlaces> before_;  // Of the frame before the last.
-  std::vector<Triangle> triangles_;       // Of the last frame, to see when they change.
+  std::uint64_t connectivity_ = 0;        // Of the last frame's mesh; 0 if there is none.
   std::vector<TopologyEvent> events_;     // Of the last frame.
   std::uint32_t topology_version_ = 0;
   std::unique_ptr<FrameAhead> ahead_;

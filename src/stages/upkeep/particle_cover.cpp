@@ -161,7 +161,8 @@ class ParticleCover {
 
   bool is_sound(const std::vector<Moving>& moving, const Vec3d& move) const {
     Eigen::AlignedBox3d box;
-    std::vector<std::uint32_t> own;  // corners of what moves
+    std::vector<std::uint32_t> own;     // corners of what moves
+    std::vector<PlacedTriangle> after;  // where it moves to
     for (const Moving& triangle : moving) {
       const Corners corners = corners_of(triangle.index);
       if (area_normal(corners).dot(area_normal(triangle.before)) <= 0.0) return false;
@@ -169,6 +170,7 @@ class ParticleCover {
       for (const Vec3d& corner : triangle.before) box.extend(corner);
       const Triangle& vertices = mesh_.triangles()[triangle.index];
       own.insert(own.end(), vertices.begin(), vertices.end());
+      after.push_back(place_triangle(vertices, corners));
     }
     std::sort(own.begin(), own.end());
     for (const std::uint32_t other : near_) {
@@ -178,11 +180,8 @@ class ParticleCover {
       for (const Vec3d& corner : corners) other_box.extend(corner);
       if (!box.intersects(other_box)) continue;
       const PlacedTriangle placed = place_triangle(vertices, corners);
-      for (const Moving& triangle : moving) {
-        if (triangles_cross(place_triangle(mesh_.triangles()[triangle.index], corners_of(triangle.index)), placed)) {
-          return false;
-        }
-      }
+      const auto crosses = [&](const PlacedTriangle& triangle) { return triangles_cross(triangle, placed); };
+      if (std::any_of(after.begin(), after.end(), crosses)) return false;
       for (std::size_t k = 0; k < 3; ++k) {
         if (!std::binary_search(own.begin(), own.end(), vertices[k]) && is_passed(corners[k], moving, move)) {
           return false;

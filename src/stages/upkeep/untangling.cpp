@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "birth_record.h"
+#include "core/disjoint_sets.h"
 #include "crossing_search.h"
 #include "half_edges.h"
 #include "triangle_shape.h"
@@ -100,37 +100,22 @@ class Untangling {
     Indices members;
     for (const auto& [a, b] : crossings) members.insert(members.end(), {a, b});
     sort_out(members);
-    Indices root(members.size());
-    std::iota(root.begin(), root.end(), 0U);
-    const auto find = [&](std::uint32_t n) {
-      while (root[n] != n) n = root[n] = root[root[n]];
-      return n;
-    };
-    const auto join = [&](std::uint32_t a, std::uint32_t b) {
-      const std::uint32_t first = find(a), second = find(b);
-      root[std::max(first, second)] = std::min(first, second);
-    };
+    DisjointSets joined(members.size());
     const auto number = [&](std::uint32_t triangle) {
       return static_cast<std::uint32_t>(std::lower_bound(members.begin(), members.end(), triangle) - members.begin());
     };
-    for (const auto& [a, b] : crossings) join(number(a), number(b));
+    for (const auto& [a, b] : crossings) joined.join(number(a), number(b));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at_vertex;
     for (std::uint32_t n = 0; n < members.size(); ++n) {
       for (const std::uint32_t v : connected_.triangles[members[n]]) at_vertex.emplace_back(v, n);
     }
     std::sort(at_vertex.begin(), at_vertex.end());
     for (std::size_t n = 1; n < at_vertex.size(); ++n) {
-      if (at_vertex[n].first == at_vertex[n - 1].first) join(at_vertex[n].second, at_vertex[n - 1].second);
+      if (at_vertex[n].first == at_vertex[n - 1].first) joined.join(at_vertex[n].second, at_vertex[n - 1].second);
     }
-    std::vector<Indices> tangles;
-    Indices place(members.size());
-    for (std::uint32_t n = 0; n < members.size(); ++n) {
-      if (find(n) == n) {
-        place[n] = static_cast<std::uint32_t>(tangles.size());
-        tangles.emplace_back();
-      }
-      tangles[place[find(n)]].push_back(members[n]);
-    }
+    std::vector<Indices> tangles(joined.count());
+    const Indices labels = joined.labels();
+    for (std::uint32_t n = 0; n < members.size(); ++n) tangles[labels[n]].push_back(members[n]);
     return tangles;
   }
 
