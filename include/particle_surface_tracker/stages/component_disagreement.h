@@ -24,7 +24,8 @@ struct ComponentDisagreement {
 /// has lost its liquid, or broke off a body that is still whole.
 ///
 /// A vertex belongs to the component of φ = 0 that is nearest along the lattice. Flagged are triangles whose vertices
-/// belong to different components, and all triangles of a small component of the mesh that belongs to a component of
+/// belong to different components that their piece of the mesh holds together, if need be through components too small
+/// to count on their own, and all triangles of a small component of the mesh that belongs to a component of
 /// φ = 0 which another one of the mesh covers better. Bridges and scraps that the first mesh was born with are left
 /// alone: details may be thinner than the liquid can resolve.
 /// \param first_new_id ids from here on were not in the first mesh.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "component_labels.h"
+#include "joining_specks.h"
 #include "stages/detection/triangle_cells.h"
 #include "stages/nodes/lattice_cell.h"
 #include "stages/nodes/node_masks.h"
@@ -48,18 +49,17 @@ class StrayPieces {
     std::vector<std::size_t> sizes(count, 0);
     for (const Triangle& t : mesh.triangles()) ++sizes[of_vertex[t[0]]];
     std::vector<bool> has_changed(count, false);
-    std::map<std::pair<std::uint32_t, std::int32_t>, std::size_t> votes;
-    auto entry = votes.end();
+    auto entry = votes_.end();
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
       // Away from all others there is only the largest.
       const std::pair key(of_vertex[v], std::max(labels[v], 0));
       // Mostly that of the vertex before.
-      if (entry == votes.end() || entry->first != key) entry = votes.try_emplace(key, 0).first;
+      if (entry == votes_.end() || entry->first != key) entry = votes_.try_emplace(key, 0).first;
       ++entry->second;
       if (mesh.ids()[v] >= first_new_id) has_changed[of_vertex[v]] = true;
     }
     std::vector<std::pair<std::size_t, std::int32_t>> choice(count, {0, 0});
-    for (const auto& [place, number] : votes) {
+    for (const auto& [place, number] : votes_) {
       const auto& [component, label] = place;
       if (number > choice[component].first) choice[component] = {number, label};
       auto& best = owner_[label];
@@ -78,18 +78,24 @@ class StrayPieces {
   /// Of the component that a triangle belongs to.
   Kind kind_of(const Triangle& t) const { return kinds_[component_of(t)]; }
 
-  /// Whether the component that a triangle belongs to is, of all of the mesh, that with most vertices at either of two
-  /// components of φ = 0.
+  /// Whether the component that a triangle belongs to has much of two components of φ = 0.
   bool holds_both(const Triangle& t, std::int32_t label, std::int32_t other) const {
-    return kinds_.size() == 1 ||
-           (owner_.at(label).second == component_of(t) && owner_.at(other).second == component_of(t));
+    return kinds_.size() == 1 || (holds(component_of(t), label) && holds(component_of(t), other));
   }
 
- private:
   std::uint32_t component_of(const Triangle& t) const { return components_->of_vertex[t[0]]; }
+
+ private:
+  /// Whether a component of the mesh has at least half as many vertices at one of φ = 0 as that which has most: what is
+  /// only near to it, as detail of the body beside it is, has fewer.
+  bool holds(std::uint32_t component, std::int32_t label) const {
+    return 2 * votes_.at({component, label}) >= owner_.at(label).first;
+  }
 
   std::shared_ptr<const VertexComponents> components_;
   std::vector<Kind> kinds_;
+  /// How many vertices each component of the mesh has at every one of φ = 0.
+  std::map<std::pair<std::uint32_t, std::int32_t>, std::size_t> votes_;
   /// Of every component of φ = 0 that of the mesh with most vertices there, and how many.
   std::map<std::int32_t, std::pair<std::size_t, std::uint32_t>> owner_;
 };
@@ -99,7 +105,13 @@ class Bridges {
  public:
   Bridges(const TriangleMesh& mesh, std::uint32_t first_new_id, const ComponentLabels& components, const Labels& labels,
           const StrayPieces& pieces, double h)
-      : mesh_(mesh), first_new_id_(first_new_id), components_(components), labels_(labels), pieces_(pieces), h_(h) {}
+      : mesh_(mesh),
+        first_new_id_(first_new_id),
+        components_(components),
+        labels_(labels),
+        pieces_(pieces),
+        joining_specks_(mesh, components, labels),
+        h_(h) {}
 
   /// Whether an edge runs from one body to another. Where a part of the liquid is thinner than r, φ = 0 can come apart
   /// and together again as the lattice lies: detail must not follow, so it is a bridge only where an edge has grown
@@ -109,7 +121,7 @@ class Bridges {
     if (!spans_components(t, labels_)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      if (labels_[a] == labels_[b] || !is_of_body(a) || !is_of_body(b)) continue;
+      if (labels_[a] == labels_[b] || !counts(t, a) || !counts(t, b)) continue;
       if ((is_new(a) || is_new(b)) && pieces_.holds_both(t, labels_[a], labels_[b])) return true;
       const double length = (mesh_.positions()[a] - mesh_.positions()[b]).cast<double>().norm();
       if (length > std::max(kLength * h_, kGrowth * longest_edge_at_birth(mesh_, a, b))) return true;
@@ -120,8 +132,11 @@ class Bridges {
  private:
   bool is_new(std::uint32_t v) const { return mesh_.ids()[v] >= first_new_id_; }
 
-  bool is_of_body(std::uint32_t v) const {
-    return labels_[v] != ComponentLabels::kFar && !components_.is_speck(labels_[v]);
+  /// Whether the component of φ = 0 that a corner belongs to is a body, or joins bodies.
+  bool counts(const Triangle& t, std::uint32_t corner) const {
+    const std::int32_t label = labels_[corner];
+    if (label == ComponentLabels::kFar) return false;
+    return !components_.is_speck(label) || joining_specks_.contain(pieces_.component_of(t), label);
   }
 
   const TriangleMesh& mesh_;
@@ -129,6 +144,7 @@ class Bridges {
   const ComponentLabels& components_;
   const Labels& labels_;
   const StrayPieces& pieces_;
+  JoiningSpecks joining_specks_;
   double h_;
 };
 

@@ -20,13 +20,14 @@ namespace {
 constexpr double kSpacing = 0.1;
 constexpr double kH = 0.05;
 
-/// φ = 0 of balls of radius 0.5 at some places on the x axis.
-ImplicitSurface surface_of_balls(const std::vector<double>& places) {
-  const ParticleFrame particles =
+/// φ = 0 of balls of radius 0.5 at some places on the x axis, and of single particles.
+ImplicitSurface surface_of_balls(const std::vector<double>& places, const std::vector<Vec3f>& single = {}) {
+  ParticleFrame particles =
       test::fill_with_particles(Vec3d(-2, -0.6, -0.6), Vec3d(2, 0.6, 0.6), kSpacing, 0.0, 1, [&](const Vec3d& x) {
         return std::any_of(places.begin(), places.end(),
                            [&](double place) { return (x - Vec3d(place, 0, 0)).norm() < 0.5; });
       });
+  particles.positions.insert(particles.positions.end(), single.begin(), single.end());
   const ParticleGrid grid(particles.positions, implicit_function_cell_size(test::parameters_with_spacing(kSpacing)));
   ImplicitSurface surface = evaluate_implicit_function(grid, test::parameters_with_spacing(kSpacing));
   surface.triangulation = triangulate_zero_level(*surface.field, surface.dx);
@@ -117,6 +118,38 @@ TEST(ComponentDisagreement, WhatWasMadeAnewNeedNotGrowToBeABridge) {
   mesh = test::joined({mesh, body});
   note_birth(mesh);
   EXPECT_TRUE(bridge_cells(0).empty());
+}
+
+TEST(ComponentDisagreement, HoldsBodiesTogetherAlsoWhereAnotherPieceHasALittleMoreOfOne) {
+  const ImplicitSurface surface = surface_of_balls({-0.65, 0.65});
+  const TriangleMesh stretched = stretched_ellipsoid();
+  const auto bridge_cells = [&](int rings) {
+    const TriangleMesh piece = test::make_torus(Vec3d(0.65, 0, 0), 0.4, 0.1, rings, 12);
+    TriangleMesh mesh = test::joined({stretched, piece});
+    note_birth(mesh);
+    constexpr std::uint32_t no_vertex_is_old = 0;
+    return find_component_disagreement(mesh, no_vertex_is_old, IsosurfaceQuery(surface, kH),
+                                       test::parameters_with_spacing(kSpacing))
+        .bridge_cells;
+  };
+  // The mesh through both has 60 to 120 vertices there.
+  EXPECT_FALSE(bridge_cells(10).empty());
+  EXPECT_TRUE(bridge_cells(40).empty());
+}
+
+TEST(ComponentDisagreement, BodiesMustNotHangTogetherByASpeck) {
+  const TriangleMesh stretched = stretched_ellipsoid();
+  TriangleMesh mesh(stretched.positions(), stretched.triangles());
+  note_birth(mesh);
+  const auto bridge_cells = [&](const std::vector<double>& balls) {
+    constexpr std::uint32_t no_vertex_is_old = 0;
+    const ImplicitSurface surface = surface_of_balls(balls, {Vec3f(0.0F, 0.2F, 0.0F), Vec3f(0.0F, -0.2F, 0.0F)});
+    return find_component_disagreement(mesh, no_vertex_is_old, IsosurfaceQuery(surface, kH),
+                                       test::parameters_with_spacing(kSpacing))
+        .bridge_cells;
+  };
+  EXPECT_FALSE(bridge_cells({-0.75, 0.75}).empty());
+  EXPECT_TRUE(bridge_cells({-0.75}).empty());
 }
 
 TEST(ComponentDisagreement, FlagsScrapsWithoutLiquidOfTheirOwn) {
