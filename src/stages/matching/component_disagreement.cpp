@@ -32,8 +32,13 @@ constexpr int kBridgeReach = 6;
 
 using Labels = std::vector<std::int32_t>;
 
-bool spans_components(const Triangle& t, const Labels& labels) {
-  return labels[t[0]] != labels[t[1]] || labels[t[1]] != labels[t[2]];
+/// The triangles with corners at different components of φ = 0.
+std::vector<Triangle> spanning_triangles(const TriangleMesh& mesh, const Labels& labels) {
+  std::vector<Triangle> spanning;
+  for (const Triangle& t : mesh.triangles()) {
+    if (labels[t[0]] != labels[t[1]] || labels[t[1]] != labels[t[2]]) spanning.push_back(t);
+  }
+  return spanning;
 }
 
 /// Components of the mesh that should not be there, or not be on their own.
@@ -103,14 +108,15 @@ class StrayPieces {
 /// Finds triangles that hold bodies together which have come apart.
 class Bridges {
  public:
-  Bridges(const TriangleMesh& mesh, std::uint32_t first_new_id, const ComponentLabels& components, const Labels& labels,
-          const StrayPieces& pieces, double h)
+  /// \param spanning the triangles that may be part of one.
+  Bridges(const TriangleMesh& mesh, const std::vector<Triangle>& spanning, std::uint32_t first_new_id,
+          const ComponentLabels& components, const Labels& labels, const StrayPieces& pieces, double h)
       : mesh_(mesh),
         first_new_id_(first_new_id),
         components_(components),
         labels_(labels),
         pieces_(pieces),
-        joining_specks_(mesh, components, labels),
+        joining_specks_(spanning, *mesh.components(), components, labels),
         h_(h) {}
 
   /// Whether an edge runs from one body to another. Where a part of the liquid is thinner than r, φ = 0 can come apart
@@ -118,7 +124,6 @@ class Bridges {
   /// long, as it does where the bodies really part. Surface that re-meshing has made follows φ wherever it is all that
   /// holds two bodies together.
   bool contain(const Triangle& t) const {
-    if (!spans_components(t, labels_)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       if (labels_[a] == labels_[b] || !counts(t, a) || !counts(t, b)) continue;
@@ -166,18 +171,23 @@ ComponentDisagreement find_component_disagreement(const TriangleMesh& mesh, std:
            std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return bridge[v] > 0.0F; });
   };
   const double h = parameters.dx_gamma * parameters.particle_spacing;
-  const Bridges bridges(mesh, first_new_id, components, labels, pieces, h);
   ComponentDisagreement found;
-  for (const Triangle& t : mesh.triangles()) {
-    const auto append_to = [&](std::vector<openvdb::Coord>& cells) {
-      const auto at = [&](std::size_t k) -> Vec3d { return mesh.positions()[t[k]].cast<double>(); };
-      append_triangle_cells({at(0), at(1), at(2)}, h, cells);
-    };
-    const StrayPieces::Kind kind = pieces.kind_of(t);
-    if (kind == StrayPieces::Kind::kScrap) append_to(found.scrap_cells);
-    if (kind == StrayPieces::Kind::kBody) append_to(found.stray_cells);
-    if (kind != StrayPieces::Kind::kScrap && bridges.contain(t) && !is_old_bridge(t)) {
-      append_to(found.bridge_cells);
+  const auto append_cells = [&](const Triangle& t, std::vector<openvdb::Coord>& cells) {
+    const auto at = [&](std::size_t k) -> Vec3d { return mesh.positions()[t[k]].cast<double>(); };
+    append_triangle_cells({at(0), at(1), at(2)}, h, cells);
+  };
+  if (!pieces.none()) {
+    for (const Triangle& t : mesh.triangles()) {
+      const StrayPieces::Kind kind = pieces.kind_of(t);
+      if (kind == StrayPieces::Kind::kScrap) append_cells(t, found.scrap_cells);
+      if (kind == StrayPieces::Kind::kBody) append_cells(t, found.stray_cells);
+    }
+  }
+  const std::vector<Triangle> spanning = spanning_triangles(mesh, labels);
+  const Bridges bridges(mesh, spanning, first_new_id, components, labels, pieces, h);
+  for (const Triangle& t : spanning) {
+    if (pieces.kind_of(t) != StrayPieces::Kind::kScrap && bridges.contain(t) && !is_old_bridge(t)) {
+      append_cells(t, found.bridge_cells);
     }
   }
   for (std::vector<openvdb::Coord>* cells : {&found.bridge_cells, &found.scrap_cells, &found.stray_cells}) {
@@ -194,8 +204,7 @@ void note_bridges(TriangleMesh& mesh, const IsosurfaceQuery& isosurface) {
     return cell_of(mesh.positions()[v].cast<double>() / isosurface.surface().dx);
   };
   NodeMasks cells;
-  for (const Triangle& t : mesh.triangles()) {
-    if (!spans_components(t, labels)) continue;
+  for (const Triangle& t : spanning_triangles(mesh, labels)) {
     for (const std::uint32_t v : t) cells.insert(cell_at(v));
   }
   if (cells.leaves().empty()) return;

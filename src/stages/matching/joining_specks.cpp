@@ -14,9 +14,10 @@ using Speck = std::pair<std::uint32_t, std::int32_t>;  // piece of the mesh, lab
 /// Where specks of a mesh meet each other, and bodies.
 class SpeckContacts {
  public:
-  SpeckContacts(const TriangleMesh& mesh, const ComponentLabels& components, const Labels& labels)
-      : pieces_(mesh.components()), components_(components), labels_(labels) {
-    for (const Triangle& t : mesh.triangles()) {
+  SpeckContacts(const std::vector<Triangle>& triangles, const VertexComponents& pieces,
+                const ComponentLabels& components, const Labels& labels)
+      : pieces_(pieces), components_(components), labels_(labels) {
+    for (const Triangle& t : triangles) {
       for (std::size_t k = 0; k < 3; ++k) look_at_edge(t[k], t[(k + 1) % 3]);
     }
   }
@@ -47,10 +48,10 @@ class SpeckContacts {
   /// The number of the speck that a vertex belongs to.
   std::uint32_t number_of(std::uint32_t vertex) {
     const auto next = static_cast<std::uint32_t>(numbers_.size());
-    return numbers_.try_emplace({pieces_->of_vertex[vertex], labels_[vertex]}, next).first->second;
+    return numbers_.try_emplace({pieces_.of_vertex[vertex], labels_[vertex]}, next).first->second;
   }
 
-  std::shared_ptr<const VertexComponents> pieces_;
+  const VertexComponents& pieces_;
   const ComponentLabels& components_;
   const Labels& labels_;
   std::map<Speck, std::uint32_t> numbers_;
@@ -60,7 +61,8 @@ class SpeckContacts {
 
 }  // namespace
 
-JoiningSpecks::JoiningSpecks(const TriangleMesh& mesh, const ComponentLabels& components, const Labels& labels)
-    : joining_(SpeckContacts(mesh, components, labels).joining()) {}
+JoiningSpecks::JoiningSpecks(const std::vector<Triangle>& triangles, const VertexComponents& pieces,
+                             const ComponentLabels& components, const Labels& labels)
+    : joining_(SpeckContacts(triangles, pieces, components, labels).joining()) {}
 
 }  // namespace particle_surface_tracker

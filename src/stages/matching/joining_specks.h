@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "component_labels.h"
-#include "particle_surface_tracker/core/triangle_mesh.h"
+#include "particle_surface_tracker/core/types.h"
+#include "particle_surface_tracker/core/vertex_components.h"
 
 namespace particle_surface_tracker {
 
@@ -14,9 +15,12 @@ namespace particle_surface_tracker {
 /// bodies that have come apart must not hang together by one.
 class JoiningSpecks {
  public:
+  /// \param triangles those with corners at different components of φ = 0.
+  /// \param pieces of the mesh.
   /// \param components of φ = 0.
-  /// \param labels the component of every vertex.
-  JoiningSpecks(const TriangleMesh& mesh, const ComponentLabels& components, const std::vector<std::int32_t>& labels);
+  /// \param labels the component of φ = 0 of every vertex.
+  JoiningSpecks(const std::vector<Triangle>& triangles, const VertexComponents& pieces,
+                const ComponentLabels& components, const std::vector<std::int32_t>& labels);
 
   /// \param piece component of the mesh.
   bool contain(std::uint32_t piece, std::int32_t label) const { return joining_.count({piece, label}) > 0; }
