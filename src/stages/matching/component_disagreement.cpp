@@ -121,8 +121,8 @@ class Bridges {
 
   /// Whether an edge runs from one body to another. Where a part of the liquid is thinner than r, φ = 0 can come apart
   /// and together again as the lattice lies: detail must not follow, so it is a bridge only where an edge has grown
-  /// long, as it does where the bodies really part. Surface that re-meshing has made follows φ wherever it is all that
-  /// holds two bodies together.
+  /// long, as it does where the bodies really part. Surface that re-meshing has made follows φ wherever its piece of
+  /// the mesh has much of both bodies.
   bool contain(const Triangle& t) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
